@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "evit/body_pose_t.hpp"
+#include "evit/credit_t.hpp"
+#include "evit/event_packet_t.hpp"
+#include "evit/imu_batch_t.hpp"
+#include "evit/keyframe_t.hpp"
+#include "evit/map_points_t.hpp"
+#include "evit/map_query_t.hpp"
+#include "evit/replay_control_t.hpp"
+#include "evit/service_status_t.hpp"
+#include "evit/stream_end_t.hpp"
+#include "evit/tracker_mode_t.hpp"
+#include "evit/window_state_t.hpp"
+
+/// Decoding that trusts nothing: lengths, fingerprint, every count (before memory is reserved) and, in
+/// Validate(), the meaning of fields (finite numbers, unit quaternions, sorted times, sizes that agree).
+/// LCM's generated decoders trust the counts in a message: a forged one crashes them, so bytes are checked
+/// first.
+namespace evit {
+
+/// Decodes `size` bytes into `message`. False (message untouched or partly filled, never a crash) where the
+/// bytes are not exactly one well-formed, valid message of this type; `why`, where not null, says what is
+/// wrong.
+template <typename Message>
+bool DecodeChecked(const std::uint8_t* data, std::size_t size, Message* message, std::string* why = nullptr);
+
+/// Encodes into `buffer` (resized as needed, memory reused from call to call).
+template <typename Message>
+void EncodeTo(const Message& message, std::vector<std::uint8_t>* buffer);
+
+}  // namespace evit

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "common/evaluation/trajectory.h"
+
+namespace evit {
+
+enum class Alignment {
+  kNone,       // map frame as it is
+  kFirstPair,  // SE(3) of the first pair (the paper's protocol)
+  kUmeyama,    // least-squares SE(3) over all pairs (no scale)
+};
+
+/// Absolute trajectory error over the pairs (estimate, truth interpolated at the estimate's stamps).
+struct TrajectoryError {
+  int n_pairs = 0;
+  double position_rmse = 0;     // m
+  double orientation_rmse = 0;  // rad
+  double position_max = 0;      // m
+  double orientation_max = 0;   // rad
+  double coverage = 0;          // 0..1: share of the truth's time span that the estimate reaches
+};
+TrajectoryError AbsoluteError(const Trajectory& truth, const Trajectory& estimate, Alignment alignment);
+
+/// The same over the first `share` (0..1) of the truth's time span; n_pairs == 0 where the estimate ends
+/// before it (milestones 30 / 50 / 100 % of the paper's tables).
+TrajectoryError MilestoneError(const Trajectory& truth, const Trajectory& estimate, Alignment alignment,
+                               double share);
+
+/// Relative pose error over intervals of `delta` us: RMSE of position (m) and orientation (rad).
+TrajectoryError RelativeError(const Trajectory& truth, const Trajectory& estimate, Utime delta);
+
+}  // namespace evit

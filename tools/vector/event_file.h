@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "common/events/event.h"
+
+namespace evit {
+
+/// VECtor's `*.synced.left_event.hdf5` (DSEC layout): events/{x u16, y u16, p u8, t u32 us after t_offset},
+/// t_offset i64[1] us, ms_to_idx u64. Chunked; Zstandard filter 32015, registered in process (no plug-in needed).
+/// All functions throw std::runtime_error naming the file, the dataset and what is wrong.
+class EventFileWriter {
+ public:
+  /// Writes `path`.part; Close() renames it to `path`. Without Close() the part file is removed.
+  EventFileWriter(const std::string& path, Utime t_offset);
+  ~EventFileWriter();
+  void Append(const EventArray& events);  // sorted, all at or after t_offset
+  void Close();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+class EventFileReader {
+ public:
+  explicit EventFileReader(const std::string& path);
+  ~EventFileReader();
+  std::size_t size() const;  // events in the file
+  /// Reads up to `max_events` further events (absolute stamps) into `events` (replaced). Returns how many; 0 at the end.
+  std::size_t Read(std::size_t max_events, EventArray* events);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace evit
