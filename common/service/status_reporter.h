@@ -1,0 +1,53 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "common/bus/bus.h"
+#include "common/bus/channels.h"
+#include "evit/service_status_t.hpp"
+
+namespace evit {
+
+/// Collects what a service says of itself and sends it as STATUS: at 1 Hz, and at once when the state changes.
+class StatusReporter {
+ public:
+  /// `bus` must outlive this.
+  StatusReporter(Bus* bus, const Channels& channels, std::string service, std::int64_t epoch);
+
+  /// `state`: one word, see service_status_t. `detail`: for a person.
+  void SetState(const std::string& state, const std::string& detail);
+  void SetProgress(double share);  // 0..1
+  /// A counter by name, created at zero; the reference stays valid.
+  std::int64_t& Counter(const std::string& name);
+  /// One call of a stage took this long; STATUS shows the mean.
+  void AddTiming(const std::string& stage, double milliseconds);
+
+  void Tick();     // call often: sends when a second has passed
+  void Publish();  // sends now
+
+  const std::string& state() const { return message_.state; }
+  std::int64_t epoch() const { return message_.epoch; }
+
+ private:
+  struct Timing {
+    double sum_ms = 0;
+    std::int64_t calls = 0;
+  };
+  Bus* bus_;
+  std::string channel_;
+  service_status_t message_;
+  std::map<std::string, std::int64_t> counters_;
+  std::map<std::string, Timing> timings_;
+  std::chrono::steady_clock::time_point last_sent_;
+};
+
+/// An epoch for a new run of a service: different at each start.
+std::int64_t NewEpoch();
+
+/// Host clock in us, for stamps of STATUS and the like.
+std::int64_t HostTime();
+
+}  // namespace evit
