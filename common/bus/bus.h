@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -29,6 +30,9 @@ class Bus {
   /// Receive buffer that the kernel granted, bytes; 0 where it does not apply.
   virtual int granted_receive_buffer() const { return 0; }
   virtual std::int64_t send_errors() const { return 0; }
+  /// Messages thrown away because this process was too slow to take them (a bound on memory, not the kernel's
+  /// loss).
+  virtual std::int64_t queue_drops() const { return 0; }
 };
 
 }  // namespace evit

@@ -17,7 +17,8 @@ class Service {
   virtual ~Service() = default;
   /// Called after every Poll and at least every 10 ms: time-outs, resending, STATUS.
   virtual void Tick() = 0;
-  /// The service has nothing more to do (log_replay at the end of its log). Default: runs until it is stopped.
+  /// The service has nothing more to do (log_replay at the end of its log). Default: runs until it is
+  /// stopped.
   virtual bool done() const { return false; }
   /// Last words: STATUS "finished". Called once, after SIGINT, SIGTERM or done().
   virtual void Stop() {}

@@ -7,16 +7,17 @@
 
 namespace evit {
 
-/// Follows `seq` and `epoch` of one channel and counts CHANNEL.received / .lost / .duplicate / .restarts in STATUS.
+/// Follows `seq` and `epoch` of one channel and counts CHANNEL.received / .lost / .duplicate / .restarts in
+/// STATUS.
 class SequenceCounter {
  public:
   SequenceCounter(StatusReporter* status, const std::string& channel);
 
   enum class Verdict {
-    kNext,       // exactly the next message
-    kGap,        // later than the next: some were lost (or overtaken)
-    kOld,        // seen before, or overtaken
-    kNewEpoch,   // the sender started anew: all state that came from it is stale
+    kNext,      // exactly the next message
+    kGap,       // later than the next: some were lost (or overtaken)
+    kOld,       // seen before, or overtaken
+    kNewEpoch,  // the sender started anew: all state that came from it is stale
   };
   /// Looks only; next() and epoch() stay as they are.
   Verdict Look(std::int64_t epoch, std::int64_t seq) const;
@@ -34,6 +35,7 @@ class SequenceCounter {
   std::int64_t* duplicate_;
   std::int64_t* restarts_;
   std::int64_t* invalid_;
+  bool heard_ = false;
   std::int64_t next_ = 0, epoch_ = -1;
 };
 

@@ -11,7 +11,8 @@
 
 namespace evit {
 
-/// Collects what a service says of itself and sends it as STATUS: at 1 Hz, and at once when the state changes.
+/// Collects what a service says of itself and sends it as STATUS: at 1 Hz, and at once when the state
+/// changes.
 class StatusReporter {
  public:
   /// `bus` must outlive this.

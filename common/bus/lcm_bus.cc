@@ -1,0 +1,151 @@
+#include "common/bus/lcm_bus.h"
+
+#include <lcm/lcm.h>
+
+#include <deque>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "common/bus/lcm_url.h"
+
+namespace evit {
+
+namespace {
+
+constexpr int kReceiveBuffer = 4 << 20;  // bytes: no loss up to 10 million events/s, where the default loses
+constexpr std::size_t kMaxMessage = std::size_t{16} << 20;  // bytes; LCM itself gives up at 65535 fragments
+/// Bound on what waits in this process for one subscription, bytes: some seconds of events, 16 times what
+/// lossless replay has under way. LCM's own limit counts messages whatever their size and drops in silence.
+constexpr std::size_t kMaxQueued = std::size_t{16} << 20;
+
+/// LCM channel names are regular expressions of GLib's; a backslash before each other character takes it
+/// literally.
+std::string EscapeRegex(const std::string& channel) {
+  std::string result;
+  for (const char c : channel) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    if (!plain) result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+class LcmBus : public Bus {
+ public:
+  explicit LcmBus(const std::string& url) {
+    const LcmUrl parsed = ParseLcmUrl(url);
+    std::string granted_url = url;
+    if (parsed.multicast) {
+      RequireMulticastRoute(parsed);
+      granted_ = ProbeReceiveBuffer(parsed.receive_buffer > 0 ? parsed.receive_buffer : kReceiveBuffer);
+      // Asking LCM for no more than will be granted keeps its warning off stderr; STATUS says what was
+      // granted.
+      granted_url = WithReceiveBuffer(url, granted_);
+    }
+    lcm_ = lcm_create(granted_url.c_str());
+    if (lcm_ == nullptr) {
+      throw std::runtime_error(
+          "cannot open the LCM bus \"" + url +
+          "\": check the URL (udpm://239.255.76.67:7667?ttl=0) and that multicast is routed");
+    }
+  }
+  ~LcmBus() override { lcm_destroy(lcm_); }
+  LcmBus(const LcmBus&) = delete;
+  LcmBus& operator=(const LcmBus&) = delete;
+
+  void Publish(const std::string& channel, const void* data, std::size_t size) override {
+    if (size > kMaxMessage || channel.size() > LCM_MAX_CHANNEL_NAME_LENGTH ||
+        lcm_publish(lcm_, channel.c_str(), data, static_cast<unsigned>(size)) != 0) {
+      ++send_errors_;
+    }
+  }
+
+  void Subscribe(const std::string& channel, Handler handler) override {
+    subscribers_.push_back({this, channel, std::move(handler), 0});
+    lcm_subscription_t* subscription =
+        lcm_subscribe(lcm_, EscapeRegex(channel).c_str(), &LcmBus::OnMessage, &subscribers_.back());
+    if (subscription == nullptr) {
+      subscribers_.pop_back();
+      throw std::runtime_error("cannot receive from the LCM bus (channel " + channel +
+                               "): is multicast routed, and not filtered by a firewall?");
+    }
+    lcm_subscription_set_queue_capacity(subscription, 0);  // unlimited: Enqueue() bounds and counts
+  }
+
+  int Poll(int timeout_ms) override {
+    if (queue_.empty() && lcm_handle_timeout(lcm_, timeout_ms) <= 0) return 0;
+    Drain();
+    // What arrives meanwhile is taken from LCM but waits for the next Poll: a flooded bus must not starve
+    // Tick().
+    const std::size_t waiting = queue_.size();
+    for (std::size_t i = 0; i < waiting; ++i) {
+      Queued message = std::move(queue_.front());
+      queue_.pop_front();
+      message.subscriber->queued -= message.data.size();
+      message.subscriber->handler(message.subscriber->channel, message.data.data(), message.data.size());
+      if (spare_.size() < kMaxSpare) spare_.push_back(std::move(message.data));
+      Drain();
+    }
+    return static_cast<int>(waiting);
+  }
+
+  int granted_receive_buffer() const override { return granted_; }
+  std::int64_t send_errors() const override { return send_errors_; }
+  std::int64_t queue_drops() const override { return queue_drops_; }
+
+ private:
+  struct Subscriber {
+    LcmBus* bus;
+    std::string channel;
+    Handler handler;
+    std::size_t queued;  // bytes
+  };
+  struct Queued {
+    Subscriber* subscriber;
+    std::vector<std::uint8_t> data;
+  };
+  static constexpr std::size_t kMaxSpare = 64;
+  static constexpr int kMaxDrain = 4096;
+
+  static void OnMessage(const lcm_recv_buf_t* received, const char* /*channel*/, void* user) {
+    auto* subscriber = static_cast<Subscriber*>(user);
+    subscriber->bus->Enqueue(subscriber, static_cast<const std::uint8_t*>(received->data),
+                             received->data_size);
+  }
+
+  void Enqueue(Subscriber* subscriber, const std::uint8_t* data, std::size_t size) {
+    if (subscriber->queued + size > kMaxQueued) {
+      ++queue_drops_;
+      return;
+    }
+    std::vector<std::uint8_t> copy;
+    if (!spare_.empty()) {
+      copy = std::move(spare_.back());
+      spare_.pop_back();
+    }
+    copy.assign(data, data + size);
+    subscriber->queued += size;
+    queue_.push_back({subscriber, std::move(copy)});
+  }
+
+  /// Takes over what LCM's reader thread has queued, so that no queue without a bound can grow.
+  void Drain() {
+    for (int i = 0; i < kMaxDrain && lcm_handle_timeout(lcm_, 0) > 0; ++i) {
+    }
+  }
+
+  lcm_t* lcm_ = nullptr;
+  int granted_ = 0;
+  std::int64_t send_errors_ = 0;
+  std::int64_t queue_drops_ = 0;
+  std::deque<Subscriber> subscribers_;  // LCM holds their addresses
+  std::deque<Queued> queue_;
+  std::vector<std::vector<std::uint8_t>> spare_;  // memory of messages already handled
+};
+
+}  // namespace
+
+std::unique_ptr<Bus> OpenLcmBus(const std::string& url) { return std::make_unique<LcmBus>(url); }
+
+}  // namespace evit

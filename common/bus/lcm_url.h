@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+namespace evit {
+
+/// What is in an LCM URL of the kind udpm://GROUP:PORT?ttl=T&recv_buf_size=B.
+struct LcmUrl {
+  bool multicast = false;  // udpm; nothing below is set for other kinds (memq, tcpq, file)
+  std::string group = "239.255.76.67";
+  int port = 7667;
+  int receive_buffer = 0;  // bytes asked for in the URL; 0: none
+};
+
+/// Throws std::runtime_error, naming the part, where a udpm URL is malformed or the group is no multicast
+/// address.
+LcmUrl ParseLcmUrl(const std::string& url);
+
+/// The same URL with recv_buf_size set to `bytes`, replacing what it says.
+std::string WithReceiveBuffer(const std::string& url, int bytes);
+
+/// What the kernel grants a UDP socket of this process that asks for a receive buffer of `bytes`. LCM's own
+/// socket is out of reach (lcm_get_fileno is only a notification pipe), but SO_RCVBUF is granted by one rule
+/// for every socket, min(asked, net.core.rmem_max), and LCM asks as this does: so a socket of our own reads
+/// the same number. Half of what getsockopt says, which is doubled for the kernel's book-keeping.
+int ProbeReceiveBuffer(int bytes);
+
+/// Throws std::runtime_error with the remedy where this host has no route to the multicast group.
+void RequireMulticastRoute(const LcmUrl& url);
+
+}  // namespace evit

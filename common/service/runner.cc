@@ -1,0 +1,87 @@
+#include "common/service/runner.h"
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+namespace evit {
+
+namespace {
+
+constexpr char kDefaultUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
+
+// The only things a signal handler may touch. Poll never waits for long, so a flag is enough.
+volatile std::sig_atomic_t g_stop = 0;
+
+void OnSignal(int /*signal*/) { g_stop = 1; }
+
+/// Turns SIGINT and SIGTERM into a flag while it lives, then puts back what was there.
+class StopSignals {
+ public:
+  StopSignals() {
+    g_stop = 0;
+    struct sigaction action = {};
+    action.sa_handler = &OnSignal;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, &old_int_);
+    sigaction(SIGTERM, &action, &old_term_);
+  }
+  ~StopSignals() {
+    sigaction(SIGINT, &old_int_, nullptr);
+    sigaction(SIGTERM, &old_term_, nullptr);
+  }
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+  bool received() const { return g_stop != 0; }
+
+ private:
+  struct sigaction old_int_ = {};
+  struct sigaction old_term_ = {};
+};
+
+}  // namespace
+
+void AddServiceOptions(CLI::App* app, ServiceOptions* options, bool with_flow) {
+  app->add_option("--lcm-url", options->lcm_url,
+                  std::string("LCM bus; default: LCM_DEFAULT_URL, else ") + kDefaultUrl);
+  app->add_option("--prefix", options->prefix,
+                  "in front of every channel name, so that pipelines can share a bus");
+  if (with_flow) {
+    app->add_flag(
+        "--lossless", options->lossless,
+        "nothing is dropped: the sender waits for its receivers (default: real time, losses are counted)");
+  }
+}
+
+std::string ResolveLcmUrl(const std::string& option) {
+  if (!option.empty()) return option;
+  const char* environment = std::getenv("LCM_DEFAULT_URL");
+  if (environment != nullptr && *environment != '\0') return environment;
+  return kDefaultUrl;
+}
+
+int RunService(Service* service, Bus* bus) {
+  const StopSignals signals;
+  while (!signals.received() && !service->done()) {
+    bus->Poll(service->poll_timeout_ms());
+    service->Tick();
+  }
+  service->Stop();
+  return 0;
+}
+
+int GuardedMain(const char* program, int (*body)(int, char**), int argc, char** argv) {
+  try {
+    return body(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: error: %s\n", program, error.what());
+  } catch (...) {
+    std::fprintf(stderr, "%s: error: unknown\n", program);
+  }
+  return 1;
+}
+
+}  // namespace evit
