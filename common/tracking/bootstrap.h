@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/config/tracker.pb.h"
+#include "common/tracking/imu_factor.h"
+
+namespace evit {
+
+/// One high-rate frame of the bootstrapping phase, localised from its events alone.
+struct BootstrapFrame {
+  Utime t = 0;
+  SE3 T_world_body;
+  std::shared_ptr<Preintegration> imu;  // from the previous frame to this one; unused in the first
+};
+
+struct BootstrapResult {
+  bool success = false;
+  std::string reason;             // for a person, where it failed
+  std::vector<BodyState> states;  // one per frame
+};
+
+/// Loosely coupled visual-inertial alignment (paper Sec. III-C): velocities and biases from poses and IMU
+/// terms, then the terms are integrated again with the new biases and everything is solved once more.
+///
+/// The paper holds the poses fixed. Event-only poses are some millimetres noisy, though, and over frames 10
+/// ms apart that would be a velocity noise of decimetres per second; so each pose is a measurement with
+/// `pose_sigma` (m, rad) here, of which the paper's rule is the limit sigma -> 0. A Gaussian prior on the
+/// biases stands for what a calibrated sensor's biases can be: within a fraction of a second they are hardly
+/// observable.
+BootstrapResult AlignVisualInertial(const std::vector<BootstrapFrame>& frames, double gravity,
+                                    const config::Bootstrap& config, double imu_noise_factor,
+                                    double position_sigma = 0.003, double rotation_sigma = 0.005);
+
+}  // namespace evit

@@ -1,0 +1,110 @@
+#include "common/tracking/event_alignment.h"
+
+#include <cmath>
+
+namespace evit {
+
+void RobustKernel::Evaluate(double s, double* rho, double* slope) const {
+  const double c2 = scale * scale;
+  switch (kind) {
+    case Kind::kHuber:
+      if (s <= c2) {
+        *rho = s;
+        *slope = 1;
+      } else {
+        const double r = std::sqrt(s);
+        *rho = 2 * scale * r - c2;
+        *slope = scale / r;
+      }
+      return;
+    case Kind::kCauchy:
+      *rho = c2 * std::log1p(s / c2);
+      *slope = c2 / (c2 + s);
+      return;
+    case Kind::kGemanMcClure: {
+      const double w = c2 / (c2 + s);
+      *rho = s * w;
+      *slope = w * w;
+      return;
+    }
+  }
+}
+
+AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
+                                const std::vector<Eigen::Vector3f>& points, const SE3& T_world_body,
+                                bool derivatives) {
+  const Eigen::Matrix3d R_wb = T_world_body.R(), R_cb = settings.T_camera_body.R();
+  const Eigen::Vector3d& t_cb = settings.T_camera_body.p;
+  const double inv_sigma = 1.0 / settings.image_sigma;
+
+  AlignmentTerm term;
+  // Accumulated in the body frame, where the Jacobian of a residual is (-h, h x P_body); the position rows
+  // are turned into the world frame once at the end.
+  Eigen::Matrix<double, 6, 6> hessian = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();
+  Eigen::Matrix<double, 2, 3> d_pixel;
+  for (const Eigen::Vector3f& point : points) {
+    const Eigen::Vector3d p_body = R_wb.transpose() * (point.cast<double>() - T_world_body.p);
+    const Eigen::Vector3d p_camera = R_cb * p_body + t_cb;
+    Eigen::Vector2d pixel;
+    double rho = 0, slope = 0;
+    if (!settings.camera.Project(p_camera, &pixel, derivatives ? &d_pixel : nullptr)) {
+      const double r = 255.0 * inv_sigma;
+      settings.kernel.Evaluate(r * r, &rho, &slope);
+      term.cost += 0.5 * rho;
+      continue;
+    }
+    const SurfaceField::Sample s = field.At(level, pixel.x(), pixel.y());
+    const double r = s.value * inv_sigma;
+    settings.kernel.Evaluate(r * r, &rho, &slope);
+    term.cost += 0.5 * rho;
+    if (!derivatives || (s.gx == 0 && s.gy == 0)) continue;
+    const Eigen::Vector3d g_camera =
+        (inv_sigma * s.gx) * d_pixel.row(0) + (inv_sigma * s.gy) * d_pixel.row(1);
+    const Eigen::Vector3d h = R_cb.transpose() * g_camera;
+    Eigen::Matrix<double, 6, 1> j;
+    j << -h, h.cross(p_body);
+    gradient += (slope * r) * j;
+    hessian.selfadjointView<Eigen::Lower>().rankUpdate(j, slope);
+  }
+  if (derivatives) {
+    Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Identity();
+    turn.topLeftCorner<3, 3>() = R_wb;
+    hessian.triangularView<Eigen::StrictlyUpper>() = hessian.transpose();
+    term.hessian = turn * hessian * turn.transpose();
+    term.gradient = turn * gradient;
+  }
+  return term;
+}
+
+AlignmentQuality MeasureAlignment(const AlignmentSettings& settings, const SurfaceField& field,
+                                  const std::vector<Eigen::Vector3f>& points, const SE3& T_world_body,
+                                  double shift) {
+  const SE3 T_camera_world = settings.T_camera_body * T_world_body.Inverse();
+  AlignmentQuality quality;
+  double sum = 0, shifted = 0;
+  int inliers = 0;
+  for (const Eigen::Vector3f& point : points) {
+    Eigen::Vector2d pixel;
+    if (!settings.camera.Project(T_camera_world * point.cast<double>(), &pixel) ||
+        !settings.camera.Contains(pixel)) {
+      continue;
+    }
+    ++quality.n_points;
+    const double value = field.At(0, pixel.x(), pixel.y()).value;
+    sum += value;
+    inliers += value < 127.5 ? 1 : 0;
+    shifted +=
+        0.25 *
+        (field.At(0, pixel.x() + shift, pixel.y()).value + field.At(0, pixel.x() - shift, pixel.y()).value +
+         field.At(0, pixel.x(), pixel.y() + shift).value + field.At(0, pixel.x(), pixel.y() - shift).value);
+  }
+  if (quality.n_points > 0) {
+    quality.mean_value = sum / quality.n_points;
+    quality.shifted_value = shifted / quality.n_points;
+    quality.inlier_share = static_cast<double>(inliers) / quality.n_points;
+  }
+  return quality;
+}
+
+}  // namespace evit

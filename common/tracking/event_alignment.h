@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/geometry/camera.h"
+#include "common/geometry/se3.h"
+#include "common/tracking/surface_field.h"
+
+namespace evit {
+
+/// Robust kernel rho(s) of a squared, whitened residual s; rho(0) = 0, rho'(0) = 1, concave.
+struct RobustKernel {
+  enum class Kind { kHuber, kCauchy, kGemanMcClure };
+  Kind kind = Kind::kCauchy;
+  double scale = 1;  // in units of the whitened residual
+
+  /// rho and rho' at s.
+  void Evaluate(double s, double* rho, double* slope) const;
+};
+
+/// The event alignment term of one keyframe (paper Eq. (3)): sum over points of rho((T(pi(P)) / sigma)^2)
+/// / 2.
+struct AlignmentSettings {
+  Camera camera;
+  SE3 T_camera_body;
+  double image_sigma = 80;  // grey levels
+  RobustKernel kernel;
+};
+
+/// Value, gradient and Gauss-Newton Hessian over the tangent (dp, dtheta) of T_world_body.
+struct AlignmentTerm {
+  double cost = 0;
+  Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();
+  Eigen::Matrix<double, 6, 6> hessian = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+/// `points`: map frame. A point behind the camera costs what an empty field (255) costs and pulls nowhere.
+AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
+                                const std::vector<Eigen::Vector3f>& points, const SE3& T_world_body,
+                                bool derivatives);
+
+/// How well projected points sit on a surface's edges, against the same points shifted by some pixels: a
+/// figure that needs no threshold on the scene's texture.
+struct AlignmentQuality {
+  int n_points = 0;         // points inside the image
+  double mean_value = 255;  // 0..255 under the points
+  double shifted_value =
+      255;  // 0..255 under the points shifted by +-`shift` pixels in x and y, mean of the four
+  double inlier_share = 0;  // 0..1: points whose value lies below half of 255
+
+  /// 0: no better than elsewhere; towards 1: the points lie on edges and nothing around does.
+  double contrast() const { return shifted_value > 0 ? 1.0 - mean_value / shifted_value : 0.0; }
+};
+AlignmentQuality MeasureAlignment(const AlignmentSettings& settings, const SurfaceField& field,
+                                  const std::vector<Eigen::Vector3f>& points, const SE3& T_world_body,
+                                  double shift = 10);
+
+}  // namespace evit

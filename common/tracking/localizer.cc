@@ -1,0 +1,40 @@
+#include "common/tracking/localizer.h"
+
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <algorithm>
+
+#include "common/tracking/ceres_factors.h"
+#include "common/tracking/pose_manifold.h"
+
+namespace evit {
+
+LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& field,
+                         const std::vector<Eigen::Vector3f>& points, const SE3& start, int levels,
+                         int max_iterations) {
+  BodyState state;
+  state.T_world_body = start;
+  StateBlocks blocks = ToBlocks(state);
+  LocalizerResult result;
+  for (int level = std::min(levels, field.levels()) - 1; level >= 0; --level) {
+    ceres::Problem problem;
+    problem.AddParameterBlock(blocks.pose.data(), 7, new PoseManifold);
+    problem.AddResidualBlock(new EventAlignmentFactor(&settings, &field, level, &points), nullptr,
+                             blocks.pose.data());
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.max_num_iterations = max_iterations;
+    options.function_tolerance = 1e-5;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    result.iterations += static_cast<int>(summary.iterations.size());
+  }
+  result.T_world_body = PoseFromBlock(blocks.pose.data());
+  result.T_world_body.q.normalize();
+  result.quality = MeasureAlignment(settings, field, points, result.T_world_body);
+  return result;
+}
+
+}  // namespace evit

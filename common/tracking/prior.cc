@@ -1,0 +1,56 @@
+#include "common/tracking/prior.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+namespace evit {
+namespace {
+
+// Rotation part of Minus() differs from a straight difference by this; ignoring it would bend the prior at
+// large moves.
+Matrix15d MinusJacobian(const Vector15d& d) {
+  Matrix15d m = Matrix15d::Identity();
+  m.block<3, 3>(3, 3) = RightJacobianInverseSO3(d.segment<3>(3));
+  return m;
+}
+
+}  // namespace
+
+StatePrior Marginalize(const StatePrior& prior, const AlignmentTerm& alignment, const ImuTerm& imu,
+                       const BodyState& i, const BodyState& j) {
+  Matrix15d Ji, Jj;
+  const Vector15d r = imu.Evaluate(i, j, &Ji, &Jj);
+  const Vector15d d = Minus(i, prior.mean);
+  const Matrix15d Jd = MinusJacobian(d);
+
+  Matrix15d Hii = Jd.transpose() * prior.information * Jd + Ji.transpose() * Ji;
+  Hii.topLeftCorner<6, 6>() += alignment.hessian;
+  Vector15d gi = Jd.transpose() * prior.information * d + Ji.transpose() * r;
+  gi.head<6>() += alignment.gradient;
+  const Matrix15d Hij = Ji.transpose() * Jj;
+  const Matrix15d Hjj = Jj.transpose() * Jj;
+  const Vector15d gj = Jj.transpose() * r;
+
+  const Eigen::LDLT<Matrix15d> ldlt(Hii);
+  StatePrior next;
+  next.information = Hjj - Hij.transpose() * ldlt.solve(Hij);
+  next.information = 0.5 * (next.information + next.information.transpose()).eval();
+  const Vector15d g = gj - Hij.transpose() * ldlt.solve(gi);
+  // The Gaussian's mean is where its gradient vanishes. A small ridge keeps unobserved directions where they
+  // are.
+  const Matrix15d ridge = 1e-9 * Matrix15d(next.information.diagonal().cwiseMax(1e-12).asDiagonal());
+  const Vector15d step = -(next.information + ridge).ldlt().solve(g);
+  next.mean = j;
+  next.mean.T_world_body = j.T_world_body.Plus(step.head<6>());
+  next.mean.velocity += step.segment<3>(6);
+  next.mean.bias.gyro += step.segment<3>(9);
+  next.mean.bias.accel += step.segment<3>(12);
+  return next;
+}
+
+Matrix15d SquareRoot(const Matrix15d& m) {
+  const Eigen::SelfAdjointEigenSolver<Matrix15d> solver(m);
+  return solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * solver.eigenvectors().transpose();
+}
+
+}  // namespace evit

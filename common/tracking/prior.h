@@ -1,0 +1,24 @@
+#pragma once
+
+#include "common/tracking/event_alignment.h"
+#include "common/tracking/imu_factor.h"
+
+namespace evit {
+
+/// What is known of one state from all that has left the window: a Gaussian in the tangent of `mean`.
+struct StatePrior {
+  BodyState mean;
+  Matrix15d information = Matrix15d::Zero();
+};
+
+/// Removes the oldest state of a chain: combines its prior, its event alignment and the IMU term to the next
+/// state, linearised at the given estimates, into a prior on the next state (Schur complement). Because
+/// neighbours are joined by IMU terms alone, no other state is touched.
+StatePrior Marginalize(const StatePrior& prior, const AlignmentTerm& alignment, const ImuTerm& imu,
+                       const BodyState& i, const BodyState& j);
+
+/// The upper triangular square root U of a positive semi-definite matrix, U^T U = m: stays finite where m has
+/// no rank.
+Matrix15d SquareRoot(const Matrix15d& m);
+
+}  // namespace evit

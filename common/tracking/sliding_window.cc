@@ -1,0 +1,110 @@
+#include "common/tracking/sliding_window.h"
+
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <Eigen/Cholesky>
+
+#include "common/tracking/ceres_factors.h"
+#include "common/tracking/pose_manifold.h"
+
+namespace evit {
+
+SlidingWindow::SlidingWindow(AlignmentSettings alignment, double gravity, const config::Window& config)
+    : alignment_(std::move(alignment)), gravity_(gravity), config_(config) {}
+
+void SlidingWindow::Reset(std::deque<WindowNode> nodes, const StatePrior& prior) {
+  nodes_ = std::move(nodes);
+  prior_ = prior;
+}
+
+ImuTerm SlidingWindow::Term(const WindowNode& node) const {
+  return ImuTerm(node.imu.get(), gravity_, config_.imu_noise_factor());
+}
+
+StatePrior SlidingWindow::Eliminate(const StatePrior& prior, std::size_t n) const {
+  const WindowNode& i = nodes_[n];
+  const AlignmentTerm alignment =
+      EvaluateAlignment(alignment_, *i.field, 0, i.points, i.state.T_world_body, true);
+  return Marginalize(prior, alignment, Term(nodes_[n + 1]), i.state, nodes_[n + 1].state);
+}
+
+std::optional<WindowNode> SlidingWindow::Push(WindowNode node) {
+  std::optional<WindowNode> left;
+  if (nodes_.size() >= static_cast<std::size_t>(config_.size())) {
+    if (config_.first_node() == config::Window::PRIOR) prior_ = Eliminate(prior_, 0);
+    left = std::move(nodes_.front());
+    nodes_.pop_front();
+  }
+  nodes_.push_back(std::move(node));
+  return left;
+}
+
+SlidingWindow::Summary SlidingWindow::Solve() {
+  std::vector<StateBlocks> blocks;
+  blocks.reserve(nodes_.size());
+  for (WindowNode& node : nodes_) {
+    blocks.push_back(ToBlocks(node.state));
+    if (node.imu && node.imu->NeedsRepropagation(node.state.bias)) node.imu->Repropagate(node.state.bias);
+  }
+  ceres::Problem problem;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const WindowNode& node = nodes_[n];
+    problem.AddParameterBlock(blocks[n].pose.data(), 7, new PoseManifold);
+    problem.AddParameterBlock(blocks[n].motion.data(), 9);
+    problem.AddResidualBlock(new EventAlignmentFactor(&alignment_, node.field.get(), 0, &node.points),
+                             nullptr, blocks[n].pose.data());
+    if (n > 0) {
+      problem.AddResidualBlock(new ImuFactor(Term(node)), nullptr, blocks[n - 1].pose.data(),
+                               blocks[n - 1].motion.data(), blocks[n].pose.data(), blocks[n].motion.data());
+    }
+  }
+  if (config_.first_node() == config::Window::PRIOR) {
+    problem.AddResidualBlock(new PriorFactor(prior_), nullptr, blocks[0].pose.data(),
+                             blocks[0].motion.data());
+  } else if (nodes_.size() > 1) {
+    problem.SetParameterBlockConstant(blocks[0].pose.data());
+    problem.SetParameterBlockConstant(blocks[0].motion.data());
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = config_.max_iterations();
+  options.function_tolerance = 1e-5;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+
+  Summary result;
+  result.iterations = static_cast<int>(summary.iterations.size());
+  result.initial_cost = summary.initial_cost;
+  result.final_cost = summary.final_cost;
+  result.usable = summary.IsSolutionUsable();
+  if (!result.usable) return result;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    nodes_[n].state = FromBlocks(blocks[n]);
+    nodes_[n].state.T_world_body.q.normalize();
+  }
+  if (nodes_.size() > 1) {
+    result.imu_cost =
+        0.5 * Term(nodes_.back())
+                  .Evaluate(nodes_[nodes_.size() - 2].state, nodes_.back().state, nullptr, nullptr)
+                  .squaredNorm();
+  }
+  return result;
+}
+
+Eigen::Matrix<double, 6, 6> SlidingWindow::NewestCovariance() const {
+  StatePrior prior = prior_;
+  if (config_.first_node() == config::Window::FIXED) prior.information = 1e12 * Matrix15d::Identity();
+  prior.mean = nodes_.front().state;  // only the information matters here
+  for (std::size_t n = 0; n + 1 < nodes_.size(); ++n) prior = Eliminate(prior, n);
+  const WindowNode& newest = nodes_.back();
+  Matrix15d information = prior.information;
+  information.topLeftCorner<6, 6>() +=
+      EvaluateAlignment(alignment_, *newest.field, 0, newest.points, newest.state.T_world_body, true).hessian;
+  const Matrix15d ridge = 1e-9 * Matrix15d(information.diagonal().cwiseMax(1e-9).asDiagonal());
+  const Matrix15d covariance = (information + ridge).ldlt().solve(Matrix15d::Identity());
+  return 0.5 * (covariance.topLeftCorner<6, 6>() + covariance.topLeftCorner<6, 6>().transpose());
+}
+
+}  // namespace evit

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "common/config/tracker.pb.h"
+#include "common/tracking/prior.h"
+
+namespace evit {
+
+/// One keyframe in the window.
+struct WindowNode {
+  Utime t = 0;           // us
+  std::int64_t seq = 0;  // keyframe number
+  BodyState state;
+  std::shared_ptr<const SurfaceField> field;
+  std::vector<Eigen::Vector3f> points;  // of the map, in view of this keyframe
+  std::shared_ptr<Preintegration> imu;  // from the previous node to this one; unused in the oldest
+};
+
+/// Joint optimisation of the last N keyframes (paper Sec. III-D): event alignment in each, IMU terms between
+/// neighbours.
+class SlidingWindow {
+ public:
+  struct Summary {
+    int iterations = 0;
+    double initial_cost = 0, final_cost = 0;
+    bool usable = false;  // the solver reached a finite state
+    double imu_cost = 0;  // of the newest IMU term: half its squared whitened residual
+  };
+
+  SlidingWindow(AlignmentSettings alignment, double gravity, const config::Window& config);
+
+  /// Starts with these nodes, oldest first. `prior`: on the first of them (kind PRIOR only).
+  void Reset(std::deque<WindowNode> nodes, const StatePrior& prior);
+
+  /// Adds the newest node, whose state is a prediction. Where the window is full the oldest leaves: with kind
+  /// PRIOR what it knew stays as a prior on the next. Returns the node that left.
+  std::optional<WindowNode> Push(WindowNode node);
+
+  Summary Solve();
+
+  const std::deque<WindowNode>& nodes() const { return nodes_; }
+
+  /// 6x6 covariance of the newest pose (dp [m], map frame; dtheta [rad], body frame).
+  Eigen::Matrix<double, 6, 6> NewestCovariance() const;
+
+ private:
+  ImuTerm Term(const WindowNode& node) const;
+  /// Prior on nodes_[n + 1] from everything up to nodes_[n], given the prior on nodes_[n].
+  StatePrior Eliminate(const StatePrior& prior, std::size_t n) const;
+
+  AlignmentSettings alignment_;
+  double gravity_;
+  config::Window config_;
+  std::deque<WindowNode> nodes_;
+  StatePrior prior_;
+};
+
+}  // namespace evit

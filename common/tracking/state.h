@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "common/geometry/se3.h"
+#include "common/imu/imu_sample.h"
+#include "common/time/utime.h"
+
+namespace evit {
+
+/// State of the body at one keyframe (paper Eq. (1)). Tangent of 15: (dp, dtheta, dv, d gyro bias, d accel
+/// bias).
+struct BodyState {
+  SE3 T_world_body;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, map frame
+  ImuBias bias;
+};
+
+/// The same as parameter blocks for Ceres: pose (p, q as x y z w) and motion (v, gyro bias, accel bias).
+struct StateBlocks {
+  std::array<double, 7> pose{};
+  std::array<double, 9> motion{};
+};
+StateBlocks ToBlocks(const BodyState& state);
+BodyState FromBlocks(const StateBlocks& blocks);
+
+/// Pose and motion behind raw parameter pointers.
+SE3 PoseFromBlock(const double* pose);
+
+/// Difference b minus a in the tangent of a, 15 numbers.
+Eigen::Matrix<double, 15, 1> Minus(const BodyState& b, const BodyState& a);
+
+}  // namespace evit

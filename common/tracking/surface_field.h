@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace evit {
+
+/// A negated time surface as a smooth cost field over the image (paper Sec. III-B.2), with coarser copies of
+/// itself for starts far from the minimum. Values 0 (event just now) .. 255 (none).
+///
+/// Value and gradient come from one interpolant, the quadratic B-spline over the pixels: continuously
+/// differentiable, without overshoot, nine taps. It smooths by another quarter pixel squared, which the
+/// surface's own blur dwarfs.
+class SurfaceField {
+ public:
+  /// `surface`: CV_8UC1, copied. `levels` >= 1: level l is 2^l times smaller.
+  SurfaceField(const cv::Mat& surface, int levels);
+
+  int levels() const { return static_cast<int>(pyramid_.size()); }
+  int width() const { return pyramid_[0].cols; }
+  int height() const { return pyramid_[0].rows; }
+  const cv::Mat& image(int level) const { return pyramid_[level]; }
+
+  struct Sample {
+    float value;   // 0..255
+    float gx, gy;  // per pixel of level 0
+  };
+  /// At pixel (x, y) of level 0. Outside the image the nearest border value counts, with no gradient across.
+  Sample At(int level, double x, double y) const;
+
+  /// Mean value of the whole field, 0..255: what a point placed at random meets.
+  double mean() const { return mean_; }
+
+ private:
+  std::vector<cv::Mat> pyramid_;
+  double mean_ = 0;
+};
+
+}  // namespace evit

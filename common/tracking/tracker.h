@@ -1,0 +1,101 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/config/tracker.pb.h"
+#include "common/geometry/rig.h"
+#include "common/map/visibility.h"
+#include "common/tracking/active_points.h"
+#include "common/tracking/bootstrap.h"
+#include "common/tracking/localizer.h"
+#include "common/tracking/sliding_window.h"
+
+namespace evit {
+
+enum class TrackerMode { kBootstrapping = 0, kTracking = 1, kLost = 2 };
+
+/// What the tracker needs of one keyframe.
+struct KeyframeInput {
+  Utime t = 0;  // us
+  std::int64_t seq = 0;
+  int n_events = 0;            // since the previous keyframe
+  cv::Mat surface;             // CV_8UC1, negated time surface
+  std::vector<ImuSample> imu;  // from the previous keyframe's stamp to this one's, both ends included
+  Utime imu_gap = 0;           // us: longest hole in those samples
+};
+
+struct NodeEstimate {
+  Utime t = 0;
+  std::int64_t seq = 0;
+  BodyState state;
+};
+
+/// What came of one keyframe.
+struct TrackerOutput {
+  TrackerMode mode = TrackerMode::kBootstrapping;
+  std::string reason;               // why it is in this mode
+  bool has_pose = false;            // nodes.back() is this keyframe
+  std::vector<NodeEstimate> nodes;  // the window, oldest first
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  AlignmentQuality quality;
+  int iterations = 0;
+  double image_speed = 0;  // pixels/s, 0 where unknown
+};
+
+/// Event-inertial tracking against a semi-dense map: bootstrapping, prediction, active points, sliding window
+/// and failure detection (paper Sec. III). Knows nothing of where keyframes and map points come from.
+class Tracker {
+ public:
+  /// `T_map_body`: pose at the first keyframe, to some centimetres and degrees.
+  Tracker(const Rig& rig, const config::Tracker& config, const SE3& T_map_body);
+
+  /// The view whose points the next keyframe needs.
+  VisibilityQuery NextQuery() const;
+  /// Answer to it. ids: indices into the map; points: map frame, m.
+  void AddVisible(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& points);
+
+  TrackerOutput Process(const KeyframeInput& keyframe);
+
+  TrackerMode mode() const { return mode_; }
+  /// Newest estimate: where IMU-rate poses are propagated from.
+  const BodyState& state() const { return state_; }
+  Utime state_time() const { return state_time_; }
+  double gravity() const { return rig_.gravity; }
+
+ private:
+  void ProcessBootstrap(const KeyframeInput& keyframe, TrackerOutput* out);
+  void ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out);
+  bool Bridge(const KeyframeInput& keyframe);
+  bool ReadyToBootstrap() const;
+  bool TryBootstrap();
+  BodyState Predict(const KeyframeInput& keyframe) const;
+  bool Aligned(const AlignmentQuality& quality) const;
+  void SetMode(TrackerMode mode, std::string reason);
+  void Restart(const SE3& T_map_body, std::string reason);
+  void Finish(const std::vector<Eigen::Vector3f>& points, TrackerOutput* out) const;
+
+  Rig rig_;
+  config::Tracker config_;
+  AlignmentSettings alignment_;
+  ActivePoints active_;
+  SlidingWindow window_;
+  TrackerMode mode_ = TrackerMode::kBootstrapping;
+  std::string reason_ = "waiting for the first keyframe";
+  BodyState state_;
+  Utime state_time_ = 0;
+  Utime last_interval_ = 0;
+  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s: newest gyro reading less its bias
+  int bad_keyframes_ = 0;
+
+  struct LocalizedFrame {  // high-rate frame kept until the window takes over
+    BootstrapFrame frame;
+    std::int64_t seq;
+    std::shared_ptr<const SurfaceField> field;
+    std::vector<Eigen::Vector3f> points;
+  };
+  std::vector<LocalizedFrame> frames_;
+};
+
+}  // namespace evit
