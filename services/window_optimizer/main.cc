@@ -1,0 +1,47 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <stdexcept>
+
+#include "common/bus/lcm_bus.h"
+#include "common/config/config.h"
+#include "services/window_optimizer/window_optimizer.h"
+
+namespace {
+
+evit::SE3 ParsePose(const std::string& text) {
+  double v[7];
+  char rest = 0;
+  const int n = std::sscanf(text.c_str(), " %lf %lf %lf %lf %lf %lf %lf %c", v, v + 1, v + 2, v + 3, v + 4,
+                            v + 5, v + 6, &rest);
+  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+  if (n != 7 || !(std::abs(q.norm() - 1) < 1e-2)) {
+    throw std::runtime_error("--initial-pose \"" + text +
+                             "\": seven numbers are wanted, x y z (m) and a unit quaternion qx qy qz qw");
+  }
+  return {q.normalized(), {v[0], v[1], v[2]}};
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app{"Tracks the body's 6-DoF pose in a known map from keyframes and IMU (LCM service)."};
+  std::string rig, config, pose;
+  evit::ServiceOptions options;
+  app.add_option("--rig", rig, "Calibration of camera and IMU (text protobuf)")->required();
+  app.add_option("--config", config, "Tracker settings (text protobuf)")->required();
+  app.add_option("--initial-pose", pose, "Body in the map at the first keyframe: \"x y z qx qy qz qw\"")
+      ->required();
+  evit::AddServiceOptions(&app, &options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
+  }
+  const evit::WindowOptimizer::Settings settings{evit::LoadRig(rig), evit::LoadTracker(config),
+                                                 ParsePose(pose), options.lossless};
+  const auto bus = evit::OpenLcmBus(evit::ResolveLcmUrl(options.lcm_url));
+  evit::WindowOptimizer service(bus.get(), evit::Channels(options.prefix), settings);
+  return evit::RunService(&service, bus.get());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return evit::GuardedMain("window_optimizer", Main, argc, argv); }

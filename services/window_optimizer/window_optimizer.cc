@@ -1,0 +1,211 @@
+#include "services/window_optimizer/window_optimizer.h"
+
+#include <utility>
+
+#include "common/bus/codec.h"
+#include "services/window_optimizer/messages.h"
+
+namespace evit {
+namespace {
+
+constexpr std::size_t kMaxQueue = 8;                             // keyframes waiting, real-time mode
+constexpr auto kAskAgain = std::chrono::milliseconds(200);       // an unanswered query is sent again
+constexpr auto kAnswerPatience = std::chrono::milliseconds(20);  // real time: go on with the points at hand
+
+double Milliseconds(std::chrono::steady_clock::duration d) {
+  return std::chrono::duration<double, std::milli>(d).count();
+}
+
+}  // namespace
+
+WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Settings& settings)
+    : bus_(bus),
+      channels_(channels),
+      settings_(settings),
+      status_(bus, channels, "window_optimizer", NewEpoch()),
+      keyframes_(&status_, "KEYFRAME"),
+      imu_messages_(&status_, "IMU"),
+      tracker_(settings.rig, settings.tracker, settings.T_map_body) {
+  const auto on = [&](const std::string& channel, auto method) {
+    bus_->Subscribe(channel, [this, method](const std::string&, const std::uint8_t* data, std::size_t size) {
+      (this->*method)(data, size);
+    });
+  };
+  on(channels_.keyframe, &WindowOptimizer::OnKeyframe);
+  on(channels_.map_points, &WindowOptimizer::OnMapPoints);
+  on(channels_.imu, &WindowOptimizer::OnImu);
+  last_mode_.keyframe_seq = -1;
+  status_.SetState("waiting", "waiting for map_server and for keyframes");
+  AskForPoints(false);
+}
+
+template <typename Message>
+void WindowOptimizer::Send(const std::string& channel, Message* message, std::int64_t* seq) {
+  message->seq = (*seq)++;
+  message->epoch = status_.epoch();
+  EncodeTo(*message, &buffer_);
+  bus_->Publish(channel, buffer_.data(), buffer_.size());
+}
+
+void WindowOptimizer::AskForPoints(bool again) {
+  const auto now = Clock::now();
+  if (!again) {
+    query_ = ToMessage(tracker_.NextQuery());
+    query_.utime = tracker_.state_time();
+    answered_ = false;
+    first_asked_ = now;
+    Send(channels_.map_query, &query_, &query_seq_);
+  } else {  // the very same query: its number tells which answer is awaited
+    ++status_.Counter("MAP_QUERY.sent_again");
+    EncodeTo(query_, &buffer_);
+    bus_->Publish(channels_.map_query, buffer_.data(), buffer_.size());
+  }
+  asked_ = now;
+}
+
+void WindowOptimizer::OnMapPoints(const std::uint8_t* data, std::size_t size) {
+  map_points_t message;
+  if (!DecodeChecked(data, size, &message)) {
+    ++status_.Counter("MAP_POINTS.invalid");
+    return;
+  }
+  ++status_.Counter("MAP_POINTS.received");
+  if (answered_ || message.query_epoch != query_.epoch || message.query_seq != query_.seq) return;
+  answered_ = true;
+  status_.AddTiming("map_answer", Milliseconds(Clock::now() - first_asked_));
+  tracker_.AddVisible(message.id, PointsOf(message));
+  ProcessQueue();
+}
+
+void WindowOptimizer::OnKeyframe(const std::uint8_t* data, std::size_t size) {
+  keyframe_t message;
+  if (!DecodeChecked(data, size, &message)) {
+    keyframes_.CountInvalid();
+    return;
+  }
+  if (message.width != settings_.rig.camera.width || message.height != settings_.rig.camera.height) {
+    keyframes_.CountInvalid();
+    status_.SetState("failed",
+                     "keyframes are " + std::to_string(message.width) + "x" + std::to_string(message.height) +
+                         " but the rig file's camera is not: start frame_builder and window_optimizer with "
+                         "the same --rig");
+    return;
+  }
+  const auto verdict = keyframes_.Look(message.epoch, message.seq);
+  if (settings_.lossless && verdict == SequenceCounter::Verdict::kGap) {
+    ++status_.Counter("KEYFRAME.out_of_order");  // frame_builder sends the missing one again
+    return;
+  }
+  keyframes_.Accept(message.epoch, message.seq);
+  if (verdict == SequenceCounter::Verdict::kOld) {
+    // Sent again because our answer got lost: answer again.
+    if (last_mode_.keyframe_seq >= 0) Send(channels_.tracker_mode, &last_mode_, &mode_seq_);
+    return;
+  }
+  Queue(std::move(message));
+  ProcessQueue();
+}
+
+void WindowOptimizer::Queue(keyframe_t message) {
+  if (!settings_.lossless && queue_.size() >= kMaxQueue) {
+    queue_.pop_front();
+    ++status_.Counter("KEYFRAME.dropped");
+  }
+  queue_.push_back({std::move(message), Clock::now()});
+}
+
+bool WindowOptimizer::ReadyForNext() const {
+  if (answered_) return true;
+  // Without any answer yet there are no points at all: waiting is the only sensible thing.
+  return !settings_.lossless && last_mode_.keyframe_seq >= 0 && Clock::now() - first_asked_ > kAnswerPatience;
+}
+
+void WindowOptimizer::ProcessQueue() {
+  while (!queue_.empty() && ReadyForNext()) {
+    const Waiting next = std::move(queue_.front());
+    queue_.pop_front();
+    const auto begin = Clock::now();
+    KeyframeInput input = FromMessage(next.message);
+    if (tracker_.state_time() != 0 && next.message.previous_utime != tracker_.state_time()) {
+      // A keyframe between was lost, or frame_builder started anew: the IMU samples since are our own.
+      input.imu = imu_.Between(tracker_.state_time(), input.t);
+      input.imu_gap = ImuHistory::LongestGap(input.imu);
+      ++status_.Counter("KEYFRAME.bridged");
+    }
+    if (settings_.lossless && tracker_.mode() == TrackerMode::kTracking) {
+      // Deterministic: the poses of this interval come from the state before it, as they would have live.
+      PublishPoses(input.imu, {tracker_.state().T_world_body, tracker_.state().velocity},
+                   tracker_.state().bias);
+    }
+    const TrackerOutput output = tracker_.Process(input);
+    Report(output, next.message, Milliseconds(Clock::now() - begin), next.arrived);
+    AskForPoints(false);
+  }
+}
+
+void WindowOptimizer::Report(const TrackerOutput& output, const keyframe_t& keyframe, double solve_ms,
+                             Clock::time_point arrived) {
+  const BodyState& state = tracker_.state();
+  status_.AddTiming("solve", solve_ms);
+  if (output.has_pose) {
+    window_state_t window = ToWindowState(output);
+    window.solve_ms = solve_ms;
+    window.total_ms = Milliseconds(Clock::now() - arrived);
+    status_.AddTiming("keyframe", window.total_ms);
+    Send(channels_.window_state, &window, &window_seq_);
+  }
+  last_mode_ = ToTrackerMode(output, state, keyframe.utime, keyframe.seq);
+  last_mode_.keyframe_epoch = keyframe.epoch;
+  Send(channels_.tracker_mode, &last_mode_, &mode_seq_);
+  if (!settings_.lossless && output.mode == TrackerMode::kTracking) {
+    live_ = {state.T_world_body, state.velocity};
+    live_time_ = keyframe.utime;
+  } else {
+    live_time_ = 0;
+  }
+  static constexpr const char* kModes[] = {"bootstrapping", "tracking", "lost"};
+  ++status_.Counter(std::string("mode.") + kModes[static_cast<int>(output.mode)]);
+  status_.SetState("running", std::string(kModes[static_cast<int>(output.mode)]) + ": " + output.reason);
+}
+
+void WindowOptimizer::OnImu(const std::uint8_t* data, std::size_t size) {
+  imu_batch_t message;
+  if (!DecodeChecked(data, size, &message)) {
+    imu_messages_.CountInvalid();
+    return;
+  }
+  if (imu_messages_.Accept(message.epoch, message.seq) == SequenceCounter::Verdict::kNewEpoch) imu_.Clear();
+  for (int i = 0; i < message.n; ++i) {
+    const ImuSample sample{message.sample_utime[i], Eigen::Vector3d(message.gyro[i].data()),
+                           Eigen::Vector3d(message.accel[i].data())};
+    if (!imu_.Add(sample) || settings_.lossless || live_time_ == 0) continue;
+    const std::vector<ImuSample> samples = imu_.Between(live_time_, sample.t);
+    if (samples.empty()) continue;
+    // From the newest keyframe, whose state may have come since: a few samples, and always the best estimate.
+    body_pose_t pose =
+        ToBodyPose(sample.t, PropagateImu(live_, samples, tracker_.state().bias, tracker_.gravity()));
+    Send(channels_.body_pose, &pose, &pose_seq_);
+  }
+}
+
+void WindowOptimizer::PublishPoses(const std::vector<ImuSample>& samples, NavState from,
+                                   const ImuBias& bias) {
+  for (std::size_t k = 1; k < samples.size(); ++k) {
+    from = PropagateImu(from, {samples[k - 1], samples[k]}, bias, tracker_.gravity());
+    body_pose_t pose = ToBodyPose(samples[k].t, from);
+    Send(channels_.body_pose, &pose, &pose_seq_);
+  }
+}
+
+void WindowOptimizer::Tick() {
+  if (!answered_ && Clock::now() - asked_ > kAskAgain) AskForPoints(true);
+  ProcessQueue();
+  if (!answered_ && Clock::now() - first_asked_ > std::chrono::seconds(2)) {
+    status_.SetState("waiting", "map_server does not answer: is it running, on the same URL and prefix?");
+  }
+  status_.Tick();
+}
+
+void WindowOptimizer::Stop() { status_.SetState("finished", "stopped"); }
+
+}  // namespace evit

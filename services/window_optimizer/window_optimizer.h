@@ -1,0 +1,86 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <vector>
+
+#include "common/bus/bus.h"
+#include "common/bus/channels.h"
+#include "common/service/runner.h"
+#include "common/service/sequence_counter.h"
+#include "common/service/status_reporter.h"
+#include "common/tracking/tracker.h"
+#include "evit/keyframe_t.hpp"
+#include "evit/map_query_t.hpp"
+#include "evit/tracker_mode_t.hpp"
+#include "services/window_optimizer/imu_history.h"
+
+namespace evit {
+
+/// KEYFRAME, IMU and MAP_POINTS in; WINDOW_STATE and TRACKER_MODE for each keyframe, BODY_POSE for each IMU
+/// sample and MAP_QUERY out. The tracker itself is common/tracking.
+///
+/// After each keyframe the points for the next are asked for, so that the answer is there when it comes.
+/// Lossless: a keyframe waits for that answer, and keyframes are taken in exact order. Real time: nothing
+/// waits longer than kAnswerPatience, a keyframe that cannot be kept is counted and its IMU samples are
+/// bridged from the service's own.
+class WindowOptimizer : public Service {
+ public:
+  struct Settings {
+    Rig rig;
+    config::Tracker tracker;
+    SE3 T_map_body;  // of the body at the first keyframe
+    bool lossless = false;
+  };
+  /// `bus` must outlive this.
+  WindowOptimizer(Bus* bus, const Channels& channels, const Settings& settings);
+
+  void Tick() override;
+  void Stop() override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void OnKeyframe(const std::uint8_t* data, std::size_t size);
+  void OnMapPoints(const std::uint8_t* data, std::size_t size);
+  void OnImu(const std::uint8_t* data, std::size_t size);
+  void Queue(keyframe_t message);
+  void ProcessQueue();
+  void ProcessOne(const keyframe_t& message);
+  bool ReadyForNext() const;
+  void AskForPoints(bool again);
+  void Report(const TrackerOutput& output, const keyframe_t& message, double solve_ms,
+              Clock::time_point arrived);
+  void PublishPoses(const std::vector<ImuSample>& samples, NavState from, const ImuBias& bias);
+
+  template <typename Message>
+  void Send(const std::string& channel, Message* message, std::int64_t* seq);
+
+  Bus* bus_;
+  Channels channels_;
+  Settings settings_;
+  StatusReporter status_;
+  SequenceCounter keyframes_;
+  SequenceCounter imu_messages_;
+  Tracker tracker_;
+  ImuHistory imu_;
+
+  struct Waiting {
+    keyframe_t message;
+    Clock::time_point arrived;
+  };
+  std::deque<Waiting> queue_;
+
+  map_query_t query_{};
+  bool answered_ = false;
+  Clock::time_point asked_;
+  Clock::time_point first_asked_;
+
+  tracker_mode_t last_mode_{};
+  NavState live_;  // IMU-rate state, real-time mode
+  Utime live_time_ = 0;
+  std::int64_t window_seq_ = 0, mode_seq_ = 0, pose_seq_ = 0, query_seq_ = 0;
+  std::vector<std::uint8_t> buffer_;
+};
+
+}  // namespace evit
