@@ -1,0 +1,51 @@
+#include "common/service/credit_sender.h"
+
+#include <chrono>
+
+#include "common/bus/codec.h"
+#include "common/service/status_reporter.h"
+
+namespace evit {
+
+CreditSender::CreditSender(Bus* bus, const Channels& channels, const std::string& consumer,
+                           std::int64_t epoch)
+    : bus_(bus), channel_(channels.credit), message_() {
+  message_.epoch = epoch;
+  message_.seq = 0;
+  message_.consumer = consumer;
+  message_.stream_epoch = -1;
+  message_.next_events_seq = 0;
+  message_.next_imu_seq = 0;
+}
+
+void CreditSender::Consumed(std::int64_t stream_epoch, std::int64_t next_events_seq,
+                            std::int64_t next_imu_seq, std::size_t bytes) {
+  if (stream_epoch != message_.stream_epoch) asked_ = true;
+  message_.stream_epoch = stream_epoch;
+  message_.next_events_seq = next_events_seq;
+  message_.next_imu_seq = next_imu_seq;
+  bytes_ += static_cast<std::int64_t>(bytes);
+  if (bytes_ >= kBytes) Send();
+}
+
+void CreditSender::Tick() {
+  if (asked_ || SteadyTime() - last_sent_us_ >= kPeriodUs) Send();
+}
+
+void CreditSender::Send() {
+  message_.utime = HostTime();
+  EncodeTo(message_, &buffer_);
+  bus_->Publish(channel_, buffer_.data(), buffer_.size());
+  ++message_.seq;
+  bytes_ = 0;
+  asked_ = false;
+  last_sent_us_ = SteadyTime();
+}
+
+std::int64_t SteadyTime() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace evit
