@@ -1,0 +1,45 @@
+#include "common/bus/lcm_url.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace evit {
+namespace {
+
+TEST(LcmUrl, Parses) {
+  const LcmUrl url = ParseLcmUrl("udpm://239.1.2.3:7000?ttl=0&recv_buf_size=100000");
+  EXPECT_TRUE(url.multicast);
+  EXPECT_EQ(url.group, "239.1.2.3");
+  EXPECT_EQ(url.port, 7000);
+  EXPECT_EQ(url.receive_buffer, 100000);
+  const LcmUrl standard = ParseLcmUrl("udpm://");
+  EXPECT_EQ(standard.group, "239.255.76.67");
+  EXPECT_EQ(standard.port, 7667);
+  EXPECT_EQ(standard.receive_buffer, 0);
+  EXPECT_FALSE(ParseLcmUrl("memq://").multicast);
+}
+
+TEST(LcmUrl, RefusesWhatIsMalformed) {
+  for (const char* url :
+       {"udpm://192.168.0.1:7667", "udpm://host:7667", "udpm://239.1.2.3:0", "udpm://239.1.2.3:x",
+        "udpm://239.1.2.3:70000", "udpm://?recv_buf_size=4M", "udpm://?recv_buf_size=-1"}) {
+    EXPECT_THROW(ParseLcmUrl(url), std::runtime_error) << url;
+  }
+}
+
+TEST(LcmUrl, SetsTheReceiveBuffer) {
+  EXPECT_EQ(WithReceiveBuffer("udpm://", 5), "udpm://?recv_buf_size=5");
+  EXPECT_EQ(WithReceiveBuffer("udpm://239.1.2.3:1?ttl=1", 5), "udpm://239.1.2.3:1?ttl=1&recv_buf_size=5");
+  EXPECT_EQ(WithReceiveBuffer("udpm://?recv_buf_size=99", 5), "udpm://?recv_buf_size=5");
+  EXPECT_EQ(WithReceiveBuffer("udpm://?recv_buf_size=99&ttl=0", 5), "udpm://?recv_buf_size=5&ttl=0");
+}
+
+TEST(LcmUrl, ProbesTheReceiveBuffer) {
+  const int granted = ProbeReceiveBuffer(65536);
+  EXPECT_EQ(granted, 65536);  // far below any limit
+  EXPECT_LE(ProbeReceiveBuffer(1 << 30), 1 << 30);
+}
+
+}  // namespace
+}  // namespace evit
