@@ -1,0 +1,265 @@
+#include "services/log_replay/log_replay.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <stdexcept>
+#include <thread>
+
+#include "common/bus/codec.h"
+#include "common/service/credit_sender.h"
+
+namespace evit {
+
+namespace {
+
+constexpr char kName[] = "log_replay";
+constexpr std::int64_t kWindow = 1 << 20;  // bytes under way at most
+constexpr std::int64_t kOverhead = 512;    // bytes: what a datagram costs the receive buffer beyond its data
+constexpr int kBurst = 64;                 // messages between two looks at the bus
+constexpr std::int64_t kReportPeriodUs = 200'000;
+constexpr std::int64_t kSettleUs =
+    500'000;  // STREAM_END comes every 100 ms at first, so that one may get lost
+constexpr std::int64_t kEndPeriodUs = 1'000'000;
+constexpr std::int64_t kEndPeriodSettlingUs = 100'000;
+constexpr std::int64_t kSilenceUs = 3'000'000;  // consumers send credit every 50 ms
+
+std::int64_t WindowSize(int granted_receive_buffer) {
+  // Consumers run on this host and get the buffer this process got.
+  return granted_receive_buffer > 0 ? std::min<std::int64_t>(kWindow, granted_receive_buffer / 4) : kWindow;
+}
+
+std::string Join(const std::vector<std::string>& names) {
+  std::string result;
+  for (const std::string& name : names) result += (result.empty() ? "" : ", ") + name;
+  return result;
+}
+
+}  // namespace
+
+LogReplay::LogReplay(const LogReplayOptions& options, Bus* bus, const Channels& channels)
+    : options_(options),
+      bus_(bus),
+      channels_(channels),
+      recording_(options.log, options.log_prefix, options.allow_truncated),
+      status_(bus, channels, kName, NewEpoch()),
+      control_counter_(&status_, "REPLAY_CONTROL"),
+      sender_(bus, channels, &recording_, &status_),
+      window_(options.wait_for, WindowSize(bus->granted_receive_buffer()), options.resend_us),
+      pacer_(options.speed.value_or(options.lossless ? 0.0 : 1.0)),
+      paused_(options.start_paused) {
+  if (!options.lossless && pacer_.speed() <= 0)
+    throw std::runtime_error("speed 0 (unpaced) needs --lossless");
+  if (options.lossless && options.wait_for.empty())
+    throw std::runtime_error("--lossless needs a consumer: --wait-for");
+  std::int64_t from = options.from_utime.value_or(recording_.begin_utime());
+  end_ = recording_.size();
+  if (options.seconds) {
+    const auto [begin_s, end_s] = *options.seconds;
+    from = recording_.begin_utime() + static_cast<std::int64_t>(begin_s * 1e6);
+    end_ = recording_.FirstAt(recording_.begin_utime() + static_cast<std::int64_t>(end_s * 1e6));
+  }
+  begin_ = recording_.FirstAt(from);
+  if (begin_ >= end_) {
+    throw std::runtime_error(
+        "nothing to replay: log " + options.log + " lasts from " + std::to_string(recording_.begin_utime()) +
+        " to " + std::to_string(recording_.end_utime()) + " us, and the part asked for is not in it");
+  }
+  bus->Subscribe(channels_.replay_control, [this](const std::string&, const std::uint8_t* data,
+                                                  std::size_t size) { OnControl(data, size); });
+  if (options.lossless) {
+    bus->Subscribe(channels_.credit, [this](const std::string&, const std::uint8_t* data, std::size_t size) {
+      OnCredit(data, size);
+    });
+  }
+  StartStream(begin_);
+}
+
+void LogReplay::StartStream(std::size_t position) {
+  // Whoever listens tells by the epoch that what came before is stale.
+  const std::int64_t epoch = NewEpoch();
+  sender_.Restart(epoch);
+  window_.Restart(epoch);
+  next_ = position;
+  end_seq_ = 0;
+  delivered_us_ = 0;
+  if (phase_ == Phase::kEnded) phase_ = Phase::kSending;
+  pacer_.Start(SteadyTime(), DataTime());
+}
+
+std::int64_t LogReplay::DataTime() const { return recording_.utime(std::min(next_, end_ - 1)); }
+
+void LogReplay::SetPaused(bool paused) {
+  if (paused == paused_) return;
+  paused_ = paused;
+  if (!paused) pacer_.Start(SteadyTime(), DataTime());
+  Report(SteadyTime());
+}
+
+void LogReplay::OnControl(const std::uint8_t* data, std::size_t size) {
+  replay_control_t order;
+  if (!DecodeChecked(data, size, &order)) {
+    control_counter_.CountInvalid();
+    return;
+  }
+  if (control_counter_.Accept(order.epoch, order.seq) == SequenceCounter::Verdict::kOld) return;
+  switch (order.command) {
+    case replay_control_t::PAUSE:
+      SetPaused(true);
+      break;
+    case replay_control_t::RESUME:
+      SetPaused(false);
+      break;
+    case replay_control_t::SEEK:
+      StartStream(std::clamp(recording_.FirstAt(order.seek_utime), begin_, end_));
+      break;
+    default:  // SPEED: nothing else is valid
+      if (order.speed <= 0 && !options_.lossless) {
+        ++status_.Counter("REPLAY_CONTROL.refused");  // unpaced without flow control only loses
+      } else {
+        pacer_.SetSpeed(order.speed, SteadyTime(), DataTime());
+      }
+  }
+}
+
+void LogReplay::OnCredit(const std::uint8_t* data, std::size_t size) {
+  credit_t credit;
+  const bool valid = DecodeChecked(data, size, &credit);
+  ++status_.Counter(valid ? "CREDIT.received" : "CREDIT.invalid");
+  if (!valid) return;
+  switch (window_.OnCredit(credit, SteadyTime())) {
+    case SendWindow::Verdict::kTaken:
+      break;
+    case SendWindow::Verdict::kNotAwaited:
+      ++status_.Counter("CREDIT.not_awaited");
+      break;
+    case SendWindow::Verdict::kImpossible:
+      ++status_.Counter("CREDIT.invalid");
+      break;
+    case SendWindow::Verdict::kRestarted:
+      // What the consumer had is gone with it; the best there is: a new stream from what was not consumed
+      // yet.
+      ++status_.Counter("CREDIT.restarts");
+      StartStream(window_.first_unacknowledged(next_));
+      break;
+  }
+}
+
+void LogReplay::Tick() {
+  const std::int64_t now_us = SteadyTime();
+  if (phase_ == Phase::kWaiting && (!options_.lossless || window_.missing_consumers().empty())) {
+    phase_ = Phase::kSending;
+    pacer_.Start(now_us, DataTime());
+    Report(now_us);
+  }
+  if (phase_ != Phase::kWaiting && !paused_) Send(now_us);
+  if (phase_ == Phase::kEnded) AnnounceEnd(SteadyTime());
+  if (now_us - reported_us_ >= kReportPeriodUs) Report(now_us);
+  status_.Tick();
+}
+
+void LogReplay::Send(std::int64_t now_us) {
+  if (options_.lossless && window_.CheckTimeout(now_us)) ++status_.Counter("resend.rounds");
+  for (int i = 0; i < kBurst; ++i) {
+    if (!SendOneAgain() && !SendOneNew(now_us)) break;
+    now_us = SteadyTime();
+  }
+  if (phase_ == Phase::kSending && next_ == end_) {
+    phase_ = Phase::kEnded;
+    end_sent_us_ = 0;
+    Report(now_us);
+  }
+}
+
+bool LogReplay::SendOneAgain() {
+  const SendWindow::Item* again = window_.NextAgain();
+  if (again == nullptr || !window_.MaySend(again->bytes)) return false;
+  sender_.SendAgain(again->source, again->seq);
+  ++status_.Counter("resend.messages");
+  window_.SentAgain();
+  return true;
+}
+
+bool LogReplay::SendOneNew(std::int64_t now_us) {
+  if (next_ == end_ || window_.NextAgain() != nullptr) return false;
+  const std::int64_t wait_us = pacer_.Until(recording_.utime(next_), now_us);
+  if (wait_us >= 1000) return false;  // Poll waits for whole milliseconds, this for the rest
+  const std::int64_t bytes = recording_.bytes(next_) + kOverhead;
+  if (options_.lossless && !window_.MaySend(bytes)) return false;
+  if (wait_us > 0) std::this_thread::sleep_for(std::chrono::microseconds(wait_us));
+  const std::size_t i = next_++;
+  const Recording::Kind kind = recording_.kind(i);
+  const std::int64_t seq = sender_.sent(kind);
+  if (!sender_.SendNew(i) || !options_.lossless || kind == Recording::kGroundTruth) return true;
+  window_.Sent({static_cast<SendWindow::Stream>(kind), seq, bytes, i}, now_us);
+  return true;
+}
+
+int LogReplay::poll_timeout_ms() const {
+  constexpr int kLongest = 10;
+  if (phase_ != Phase::kSending || paused_) return kLongest;
+  const SendWindow::Item* again = window_.NextAgain();
+  if (again != nullptr) return window_.MaySend(again->bytes) ? 0 : kLongest;
+  if (next_ == end_) return kLongest;
+  // Without room in the window only a credit helps, and that ends the wait by itself.
+  if (options_.lossless && !window_.MaySend(recording_.bytes(next_) + kOverhead)) return kLongest;
+  const std::int64_t wait_us = pacer_.Until(recording_.utime(next_), SteadyTime());
+  return static_cast<int>(std::clamp<std::int64_t>(wait_us / 1000, 0, kLongest));
+}
+
+void LogReplay::AnnounceEnd(std::int64_t now_us) {
+  if (delivered_us_ == 0 && everything_delivered()) {
+    delivered_us_ = now_us;
+    end_sent_us_ = 0;
+  }
+  const bool settling = delivered_us_ == 0 || now_us - delivered_us_ < kSettleUs;
+  if (end_sent_us_ != 0 && now_us - end_sent_us_ < (settling ? kEndPeriodSettlingUs : kEndPeriodUs)) return;
+  stream_end_t message{};
+  message.utime = recording_.utime(end_ - 1);
+  message.seq = end_seq_++;
+  message.epoch = sender_.epoch();
+  message.n_events_messages = sender_.sent(Recording::kEvents);
+  message.n_imu_messages = sender_.sent(Recording::kImu);
+  std::vector<std::uint8_t> bytes;
+  EncodeTo(message, &bytes);
+  bus_->Publish(channels_.stream_end, bytes.data(), bytes.size());
+  end_sent_us_ = now_us;
+}
+
+bool LogReplay::done() const {
+  return options_.exit_at_end && phase_ == Phase::kEnded && delivered_us_ != 0 &&
+         SteadyTime() - delivered_us_ >= kSettleUs;
+}
+
+void LogReplay::Report(std::int64_t now_us) {
+  reported_us_ = now_us;
+  const double length = 1e-6 * static_cast<double>(recording_.utime(end_ - 1) - recording_.utime(begin_));
+  const double position = 1e-6 * static_cast<double>(DataTime() - recording_.utime(begin_));
+  status_.SetProgress(next_ == end_ ? 1.0 : (length > 0 ? position / length : 0.0));
+  char place[96];
+  std::snprintf(place, sizeof(place), "%.2f of %.2f s", position, length);
+  const std::string where = options_.log + ": " + place;
+  const bool silent =
+      options_.lossless && !everything_delivered() && window_.longest_silence(now_us) > kSilenceUs;
+  if (phase_ == Phase::kWaiting && options_.lossless) {
+    status_.SetState("waiting", "for CREDIT from " + Join(window_.missing_consumers()) +
+                                    ": is it running with --lossless?");
+  } else if (paused_) {
+    status_.SetState("paused", where);
+  } else if (silent) {
+    status_.SetState("waiting", where + "; no CREDIT for " +
+                                    std::to_string(window_.longest_silence(now_us) / 1'000'000) +
+                                    " s: has a consumer (" + Join(options_.wait_for) + ") died?");
+  } else if (phase_ == Phase::kEnded) {
+    status_.SetState(everything_delivered() ? "finished" : "running", where + ", all sent");
+  } else {
+    status_.SetState("running", where);
+  }
+}
+
+void LogReplay::Stop() {
+  status_.SetState("finished", options_.log + ": stopped");
+  status_.Publish();
+}
+
+}  // namespace evit

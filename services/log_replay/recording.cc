@@ -1,0 +1,67 @@
+#include "services/log_replay/recording.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "common/bus/channels.h"
+
+namespace evit {
+
+namespace {
+
+bool EndsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+std::string Join(const std::vector<std::string>& names) {
+  std::string result;
+  for (const std::string& name : names) result += (result.empty() ? "" : ", ") + name;
+  return result;
+}
+
+}  // namespace
+
+Recording::Recording(const std::string& path, const std::string& prefix, bool allow_truncated)
+    : path_(path), log_(path) {
+  if (log_.trailing_bytes() > 0 && !allow_truncated) {
+    throw std::runtime_error("log " + path +
+                             " is cut off or damaged: " + std::to_string(log_.trailing_bytes()) +
+                             " bytes after its last whole message (" + std::to_string(log_.entries().size()) +
+                             " are whole); make it again, or replay what is whole with --allow-truncated");
+  }
+  const Channels channels(FindPrefix(prefix));
+  std::vector<int> kind_of(log_.channels().size(), -1);
+  for (std::size_t c = 0; c < kind_of.size(); ++c) {
+    const std::string& name = log_.channels()[c];
+    if (name == channels.events) kind_of[c] = kEvents;
+    if (name == channels.imu) kind_of[c] = kImu;
+    if (name == channels.ground_truth) kind_of[c] = kGroundTruth;
+  }
+  for (const LogEntry& entry : log_.entries()) {
+    const int kind = kind_of[static_cast<std::size_t>(entry.channel)];
+    if (kind >= 0) messages_.push_back({entry, static_cast<Kind>(kind)});
+  }
+}
+
+std::string Recording::FindPrefix(const std::string& wanted) const {
+  const std::vector<std::string>& names = log_.channels();
+  const std::string events = Channels().events;
+  if (std::find(names.begin(), names.end(), wanted + events) != names.end()) return wanted;
+  std::vector<std::string> candidates;
+  std::copy_if(names.begin(), names.end(), std::back_inserter(candidates),
+               [&events](const std::string& name) { return EndsWith(name, events); });
+  if (wanted.empty() && candidates.size() == 1) {
+    return candidates[0].substr(0, candidates[0].size() - events.size());
+  }
+  throw std::runtime_error(
+      "log " + path_ + " has no channel " + wanted + events + " (it has: " + Join(names) + "); " +
+      (candidates.empty() ? "make a log with `evit import`" : "choose one with --log-prefix"));
+}
+
+std::size_t Recording::FirstAt(std::int64_t utime) const {
+  const auto found = std::find_if(messages_.begin(), messages_.end(),
+                                  [utime](const Message& m) { return m.entry.utime >= utime; });
+  return static_cast<std::size_t>(found - messages_.begin());
+}
+
+}  // namespace evit
