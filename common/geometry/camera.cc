@@ -1,5 +1,6 @@
 #include "common/geometry/camera.h"
 
+#include <Eigen/LU>
 #include <cmath>
 
 namespace evit {

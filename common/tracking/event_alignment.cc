@@ -1,5 +1,6 @@
 #include "common/tracking/event_alignment.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace evit {
@@ -30,6 +31,33 @@ void RobustKernel::Evaluate(double s, double* rho, double* slope) const {
   }
 }
 
+namespace {
+
+// U with U^T U = g g^T + w [H]+, for the surface's gradient g and second derivatives H.
+Eigen::Matrix2d CurvatureRoot(const Eigen::Vector2d& g, double w, const SurfaceField::Sample& s) {
+  const double mean = 0.5 * (s.hxx + s.hyy), half = 0.5 * (s.hxx - s.hyy);
+  const double spread = std::sqrt(half * half + s.hxy * s.hxy);
+  const double high = std::max(mean + spread, 0.0),
+               low = std::max(mean - spread, 0.0);  // eigenvalues, clamped
+  Eigen::Matrix2d m = g * g.transpose();
+  if (spread > 1e-12) {
+    const double k = 0.5 * (high - low) / spread, c = 0.5 * (high + low);
+    m(0, 0) += w * (c + k * half);
+    m(1, 1) += w * (c - k * half);
+    m(0, 1) += w * k * s.hxy;
+    m(1, 0) += w * k * s.hxy;
+  } else {
+    m.diagonal().array() += w * high;
+  }
+  Eigen::Matrix2d root = Eigen::Matrix2d::Zero();  // Cholesky, upper triangular; m may be singular
+  root(0, 0) = std::sqrt(m(0, 0));
+  if (root(0, 0) > 1e-12) root(0, 1) = m(0, 1) / root(0, 0);
+  root(1, 1) = std::sqrt(std::max(0.0, m(1, 1) - root(0, 1) * root(0, 1)));
+  return root;
+}
+
+}  // namespace
+
 AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
                                 const std::vector<Eigen::Vector3f>& points, const SE3& T_world_body,
                                 bool derivatives) {
@@ -59,18 +87,19 @@ AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const Surface
     settings.kernel.Evaluate(r * r, &rho, &slope);
     term.cost += 0.5 * rho;
     if (!derivatives || (s.gx == 0 && s.gy == 0)) continue;
-    const Eigen::Vector3d g_camera =
-        (inv_sigma * s.gx) * d_pixel.row(0) + (inv_sigma * s.gy) * d_pixel.row(1);
-    const Eigen::Vector3d h = R_cb.transpose() * g_camera;
-    Eigen::Matrix<double, 6, 1> j;
-    j << -h, h.cross(p_body);
-    gradient += (slope * r) * j;
-    hessian.selfadjointView<Eigen::Lower>().rankUpdate(j, slope);
+    Eigen::Matrix<double, 2, 6> J;  // d(pixel)/d(tangent), position in the body frame
+    J.leftCols<3>() = -d_pixel * R_cb;
+    J.row(0).tail<3>() = p_body.cross(J.row(0).head<3>().transpose());
+    J.row(1).tail<3>() = p_body.cross(J.row(1).head<3>().transpose());
+    const Eigen::Vector2d g(inv_sigma * s.gx, inv_sigma * s.gy);
+    gradient.noalias() += (slope * r) * J.transpose() * g;
+    const Eigen::Matrix2d root = CurvatureRoot(g, r * inv_sigma, s);
+    const Eigen::Matrix<double, 2, 6> rows = std::sqrt(slope) * root * J;
+    hessian.noalias() += rows.transpose() * rows;
   }
   if (derivatives) {
     Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Identity();
     turn.topLeftCorner<3, 3>() = R_wb;
-    hessian.triangularView<Eigen::StrictlyUpper>() = hessian.transpose();
     term.hessian = turn * hessian * turn.transpose();
     term.gradient = turn * gradient;
   }

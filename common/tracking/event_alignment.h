@@ -28,7 +28,12 @@ struct AlignmentSettings {
   RobustKernel kernel;
 };
 
-/// Value, gradient and Gauss-Newton Hessian over the tangent (dp, dtheta) of T_world_body.
+/// Value, gradient and Hessian over the tangent (dp, dtheta) of T_world_body.
+///
+/// The Hessian is Newton's for each residual r over the image plane, slope * (grad r grad r^T + r [Hess r]+),
+/// with the negative part of the surface's curvature left out so that it stays positive semi-definite.
+/// Gauss-Newton's grad r grad r^T alone vanishes at the bottom of a valley, where the pose is known best: its
+/// steps overshoot there, and it would tell a prior that nothing was learned.
 struct AlignmentTerm {
   double cost = 0;
   Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();

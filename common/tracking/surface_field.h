@@ -23,8 +23,9 @@ class SurfaceField {
   const cv::Mat& image(int level) const { return pyramid_[level]; }
 
   struct Sample {
-    float value;   // 0..255
-    float gx, gy;  // per pixel of level 0
+    float value;          // 0..255
+    float gx, gy;         // per pixel of level 0
+    float hxx, hxy, hyy;  // per squared pixel of level 0
   };
   /// At pixel (x, y) of level 0. Outside the image the nearest border value counts, with no gradient across.
   Sample At(int level, double x, double y) const;

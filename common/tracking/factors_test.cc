@@ -1,0 +1,212 @@
+// Every term of the objective against numeric derivatives: at the origin and off it, at small and at large
+// rotations.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "common/tracking/ceres_factors.h"
+#include "common/tracking/synthetic_scene.h"
+
+namespace evit {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+BodyState Moved(const BodyState& s, const Vector15d& d) {
+  BodyState out = s;
+  out.T_world_body = s.T_world_body.Plus(d.head<6>());
+  out.velocity += d.segment<3>(6);
+  out.bias.gyro += d.segment<3>(9);
+  out.bias.accel += d.segment<3>(12);
+  return out;
+}
+
+struct Frame {
+  const char* name;
+  SE3 T_map_room;  // the same scene seen in another map frame
+};
+
+std::vector<Frame> Frames() {
+  const auto roll = [](double deg) {
+    return ExpSO3(Eigen::Vector3d(1, 0.2, -0.3).normalized() * deg * EIGEN_PI / 180);
+  };
+  return {{"origin", {}},
+          {"roll 30", {roll(30), {0, 0, 0}}},
+          {"roll 90, 7 m off", {roll(90), {4, -5, 3}}},
+          {"roll 170, 100 m off", {roll(170), {-80, 60, 10}}}};
+}
+
+TEST(EventAlignment, GradientMatchesNumericDerivative) {
+  for (const auto model : {Camera::Model::kPlumbBob, Camera::Model::kEquidistant}) {
+    const AlignmentSettings settings = synthetic::Alignment(model);
+    const auto room = synthetic::RoomPoints();
+    for (const Frame& frame : Frames()) {
+      std::vector<Eigen::Vector3f> points;
+      for (const auto& p : room) points.push_back((frame.T_map_room * p.cast<double>()).cast<float>());
+      const SurfaceField field(synthetic::DrawSurface(settings, points, frame.T_map_room), 2);
+      const SE3 pose = frame.T_map_room * SE3(ExpSO3({0.004, -0.003, 0.005}), {0.006, -0.008, 0.004});
+      for (int level = 0; level < 2; ++level) {
+        const AlignmentTerm term = EvaluateAlignment(settings, field, level, points, pose, true);
+        for (int k = 0; k < 6; ++k) {
+          const double h = 1e-6;
+          const Vector6d d = h * Vector6d::Unit(k);
+          const double up = EvaluateAlignment(settings, field, level, points, pose.Plus(d), false).cost;
+          const double down = EvaluateAlignment(settings, field, level, points, pose.Plus(-d), false).cost;
+          EXPECT_NEAR(term.gradient[k], (up - down) / (2 * h), 2e-3 * term.gradient.norm())
+              << frame.name << ", level " << level << ", direction " << k;
+        }
+      }
+    }
+  }
+}
+
+TEST(EventAlignment, PointsBehindTheCameraCostButDoNotPull) {
+  const AlignmentSettings settings = synthetic::Alignment();
+  const SurfaceField field(cv::Mat(480, 640, CV_8UC1, cv::Scalar(10)), 1);
+  const std::vector<Eigen::Vector3f> behind{{-2, 0, 0}, {-1, 0.1f, 0.2f}};
+  const AlignmentTerm term = EvaluateAlignment(settings, field, 0, behind, SE3(), true);
+  EXPECT_GT(term.cost, 1);
+  EXPECT_EQ(term.gradient.norm(), 0);
+  EXPECT_EQ(term.hessian.norm(), 0);
+}
+
+TEST(RobustKernel, SlopeIsTheDerivative) {
+  for (const auto kind :
+       {RobustKernel::Kind::kHuber, RobustKernel::Kind::kCauchy, RobustKernel::Kind::kGemanMcClure}) {
+    const RobustKernel kernel{kind, 0.7};
+    for (const double s : {1e-4, 0.1, 0.48, 0.5, 2.0, 9.0}) {
+      double rho = 0, slope = 0, up = 0, down = 0, unused = 0;
+      kernel.Evaluate(s, &rho, &slope);
+      kernel.Evaluate(s + 1e-6, &up, &unused);
+      kernel.Evaluate(s - 1e-6, &down, &unused);
+      EXPECT_NEAR(slope, (up - down) / 2e-6, 1e-5);
+      EXPECT_GE(rho, s * slope - 1e-12);  // what EventAlignmentFactor's seventh row rests on
+    }
+  }
+}
+
+TEST(EventAlignmentFactor, IsTheRobustSumForCeres) {
+  const AlignmentSettings settings = synthetic::Alignment();
+  const auto points = synthetic::RoomPoints();
+  const SurfaceField field(synthetic::DrawSurface(settings, points, SE3()), 1);
+  BodyState state;
+  state.T_world_body = SE3(ExpSO3({0.01, 0, -0.005}), {0.01, 0.02, 0});
+  const StateBlocks blocks = ToBlocks(state);
+  const EventAlignmentFactor factor(&settings, &field, 0, &points);
+  const double* parameters[] = {blocks.pose.data()};
+  Eigen::Matrix<double, 7, 1> r, value_only;
+  Eigen::Matrix<double, 7, 7, Eigen::RowMajor> J;
+  double* jacobians[] = {J.data()};
+  ASSERT_TRUE(factor.Evaluate(parameters, r.data(), jacobians));
+  ASSERT_TRUE(factor.Evaluate(parameters, value_only.data(), nullptr));
+  const AlignmentTerm term = EvaluateAlignment(settings, field, 0, points, state.T_world_body, true);
+  EXPECT_NEAR(0.5 * r.squaredNorm(), term.cost, 1e-9 * term.cost);
+  EXPECT_NEAR(0.5 * value_only.squaredNorm(), term.cost, 1e-9 * term.cost);
+  const Eigen::Matrix<double, 7, 6> J6 = J.leftCols<6>();
+  EXPECT_LT((J6.transpose() * J6 - term.hessian).norm(), 1e-9 * term.hessian.norm());
+  EXPECT_LT((J6.transpose() * r - term.gradient).norm(), 1e-9 * term.gradient.norm());
+}
+
+TEST(ImuTerm, JacobiansMatchNumericDerivatives) {
+  std::mt19937 rng(7);
+  std::normal_distribution<double> n;
+  const auto random3 = [&](double s) -> Eigen::Vector3d {
+    return s * Eigen::Vector3d(n(rng), n(rng), n(rng));
+  };
+  const synthetic::Motion motion;
+  const ImuNoise noise{7e-4, 1.3e-3, 7e-6, 6e-5};
+  for (int trial = 0; trial < 20; ++trial) {
+    const Preintegration pre(motion.Samples(100'000, 150'000, {}), {random3(0.01), random3(0.1)}, noise);
+    const ImuTerm term(&pre, 9.81, 1.0);
+    BodyState i, j;
+    i.T_world_body = {ExpSO3(random3(trial < 10 ? 0.1 : 1.2)), random3(trial < 10 ? 0.1 : 50)};
+    j.T_world_body = {(i.T_world_body.q * ExpSO3(random3(0.2))).normalized(),
+                      i.T_world_body.p + random3(0.1)};
+    i.velocity = random3(1), j.velocity = random3(1);
+    i.bias = {random3(0.01), random3(0.1)}, j.bias = {random3(0.01), random3(0.1)};
+    Matrix15d Ji, Jj;
+    term.Evaluate(i, j, &Ji, &Jj);
+    for (int k = 0; k < 15; ++k) {
+      const double h = 1e-6;
+      const Vector15d d = h * Vector15d::Unit(k);
+      const Vector15d di = (term.Evaluate(Moved(i, d), j, nullptr, nullptr) -
+                            term.Evaluate(Moved(i, -d), j, nullptr, nullptr)) /
+                           (2 * h);
+      const Vector15d dj = (term.Evaluate(i, Moved(j, d), nullptr, nullptr) -
+                            term.Evaluate(i, Moved(j, -d), nullptr, nullptr)) /
+                           (2 * h);
+      EXPECT_LT((di - Ji.col(k)).norm(), 1e-5 * Ji.norm()) << "i, column " << k;
+      EXPECT_LT((dj - Jj.col(k)).norm(), 1e-5 * Jj.norm()) << "j, column " << k;
+    }
+  }
+}
+
+TEST(ImuTerm, VanishesOnTheTrueMotion) {
+  const synthetic::Motion motion;
+  const Preintegration pre(motion.Samples(200'000, 225'000, {}), {}, ImuNoise{7e-4, 1.3e-3, 7e-6, 6e-5});
+  const Vector15d r =
+      ImuTerm(&pre, 9.81, 1.0).Evaluate(motion.State(0.2), motion.State(0.225), nullptr, nullptr);
+  EXPECT_LT(r.norm(), 1.0);  // integration error well below the sensor's noise
+}
+
+TEST(PriorFactor, JacobianMatchesNumericDerivative) {
+  StatePrior prior;
+  prior.mean.T_world_body = {ExpSO3({0.5, 1.0, -0.7}), {3, 2, 1}};
+  const Matrix15d a = Matrix15d::Random();
+  prior.information = a * a.transpose();
+  const PriorFactor factor(prior);
+  BodyState s = prior.mean;
+  s.T_world_body = s.T_world_body.Plus((Vector6d() << 0.1, 0.2, 0.3, 0.4, -0.3, 0.2).finished());
+  const auto evaluate = [&](const BodyState& x, double** jacobians) {
+    const StateBlocks b = ToBlocks(x);
+    const double* parameters[] = {b.pose.data(), b.motion.data()};
+    Vector15d r;
+    EXPECT_TRUE(factor.Evaluate(parameters, r.data(), jacobians));
+    return r;
+  };
+  Eigen::Matrix<double, 15, 7, Eigen::RowMajor> Jp;
+  Eigen::Matrix<double, 15, 9, Eigen::RowMajor> Jm;
+  double* jacobians[] = {Jp.data(), Jm.data()};
+  const Vector15d r = evaluate(s, jacobians);
+  const Vector15d d = Minus(s, prior.mean);
+  EXPECT_NEAR(r.squaredNorm(), d.dot(prior.information * d), 1e-9);
+  Matrix15d J;
+  J << Jp.leftCols<6>(), Jm;
+  for (int k = 0; k < 15; ++k) {
+    const Vector15d e = 1e-6 * Vector15d::Unit(k);
+    const Vector15d numeric = (evaluate(Moved(s, e), nullptr) - evaluate(Moved(s, -e), nullptr)) / 2e-6;
+    EXPECT_LT((numeric - J.col(k)).norm(), 1e-5 * J.norm()) << k;
+  }
+}
+
+TEST(Marginalize, EqualsTheFullLinearSystem) {
+  // Eliminating i must leave j with the same information and the same step as the joint system of both.
+  const synthetic::Motion motion;
+  const Preintegration pre(motion.Samples(0, 25'000, {}), {}, ImuNoise{7e-4, 1.3e-3, 7e-6, 6e-5});
+  const ImuTerm term(&pre, 9.81, 2.0);
+  const BodyState i = motion.State(0), j = Moved(motion.State(0.025), 1e-4 * Vector15d::Ones());
+  StatePrior prior{Moved(i, 1e-3 * Vector15d::Ones()), Matrix15d::Identity() * 1e4};
+  AlignmentTerm alignment;
+  alignment.hessian = 1e6 * Eigen::Matrix<double, 6, 6>::Identity();
+  alignment.gradient.setConstant(20);
+  const StatePrior next = Marginalize(prior, alignment, term, i, j);
+
+  Matrix15d Ji, Jj;
+  const Vector15d r = term.Evaluate(i, j, &Ji, &Jj);
+  Eigen::Matrix<double, 30, 30> H = Eigen::Matrix<double, 30, 30>::Zero();
+  Eigen::Matrix<double, 30, 1> g;
+  H.topLeftCorner<15, 15>() = Ji.transpose() * Ji + prior.information;
+  H.topLeftCorner<6, 6>() += alignment.hessian;
+  H.topRightCorner<15, 15>() = Ji.transpose() * Jj;
+  H.bottomLeftCorner<15, 15>() = Jj.transpose() * Ji;
+  H.bottomRightCorner<15, 15>() = Jj.transpose() * Jj;
+  g << Ji.transpose() * r + prior.information * Minus(i, prior.mean), Jj.transpose() * r;
+  g.head<6>() += alignment.gradient;
+  const Eigen::Matrix<double, 30, 1> step = -H.ldlt().solve(g);
+  EXPECT_LT((Minus(next.mean, j) - step.tail<15>()).norm(), 1e-3 * step.tail<15>().norm());
+  const Matrix15d covariance = H.inverse().bottomRightCorner<15, 15>();
+  EXPECT_LT((next.information * covariance - Matrix15d::Identity()).norm(), 1e-3);
+}
+
+}  // namespace
+}  // namespace evit
