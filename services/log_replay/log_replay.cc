@@ -215,7 +215,7 @@ void LogReplay::AnnounceEnd(std::int64_t now_us) {
   const bool settling = delivered_us_ == 0 || now_us - delivered_us_ < kSettleUs;
   if (end_sent_us_ != 0 && now_us - end_sent_us_ < (settling ? kEndPeriodSettlingUs : kEndPeriodUs)) return;
   stream_end_t message{};
-  message.utime = recording_.utime(end_ - 1);
+  message.utime = sender_.last_utime(recording_.utime(end_ - 1));
   message.seq = end_seq_++;
   message.epoch = sender_.epoch();
   message.n_events_messages = sender_.sent(Recording::kEvents);

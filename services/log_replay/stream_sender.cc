@@ -1,5 +1,6 @@
 #include "services/log_replay/stream_sender.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace evit {
@@ -10,6 +11,7 @@ namespace {
 // be stamped in place instead of being encoded again.
 constexpr std::size_t kSeqOffset = 16;
 constexpr std::size_t kEpochOffset = 24;
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min();
 
 void PutInt64(std::int64_t value, std::uint8_t* at) {
   for (int i = 7; i >= 0; --i, value >>= 8) at[i] = static_cast<std::uint8_t>(value & 0xFF);
@@ -37,7 +39,12 @@ StreamSender::StreamSender(Bus* bus, const Channels& channels, const Recording* 
 void StreamSender::Restart(std::int64_t epoch) {
   epoch_ = epoch;
   next_.fill(0);
-  last_utime_.fill(std::numeric_limits<std::int64_t>::min());
+  last_utime_.fill(kNever);
+}
+
+std::int64_t StreamSender::last_utime(std::int64_t otherwise) const {
+  const std::int64_t last = *std::max_element(last_utime_.begin(), last_utime_.end());
+  return last == kNever ? otherwise : last;
 }
 
 bool StreamSender::SendNew(std::size_t i) {
@@ -48,7 +55,8 @@ bool StreamSender::SendNew(std::size_t i) {
     ++*invalid_[kind];
     return false;
   }
-  if (span.begin < last_utime_[kind]) {
+  // Events may share an instant, samples and poses not.
+  if (span.begin < last_utime_[kind] || (kind != Recording::kEvents && span.begin == last_utime_[kind])) {
     ++*out_of_order_[kind];
     return false;
   }
@@ -71,8 +79,7 @@ bool StreamSender::Check(Recording::Kind kind, Span* span) {
       return true;
     case Recording::kImu:
       if (!DecodeChecked(bytes_.data(), bytes_.size(), &imu_)) return false;
-      // Samples strictly increase, also from one batch to the next.
-      *span = {imu_.utime, (imu_.n > 0 ? imu_.sample_utime.back() : imu_.utime) + 1};
+      *span = {imu_.utime, imu_.n > 0 ? imu_.sample_utime.back() : imu_.utime};
       return true;
     case Recording::kGroundTruth:
       if (!DecodeChecked(bytes_.data(), bytes_.size(), &pose_)) return false;

@@ -32,10 +32,12 @@ class StreamSender {
   /// Messages sent so far in this stream, which is also the next seq.
   std::int64_t sent(Recording::Kind kind) const { return next_[kind]; }
   std::int64_t epoch() const { return epoch_; }
+  /// Sensor time of the last event, sample or pose sent in this stream, us; `otherwise` where nothing was.
+  std::int64_t last_utime(std::int64_t otherwise) const;
 
  private:
   struct Span {
-    std::int64_t begin = 0, end = 0;  // us, sensor clock
+    std::int64_t begin = 0, end = 0;  // us, sensor clock, of the first and the last item
   };
   bool Check(Recording::Kind kind, Span* span);
   void Publish(Recording::Kind kind, std::int64_t seq);

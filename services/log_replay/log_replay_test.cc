@@ -1,0 +1,276 @@
+// LogReplay on the bus in memory: nothing is lost there, so what arrives is exactly what was sent.
+#include "services/log_replay/log_replay.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+
+#include "common/bus/memory_bus.h"
+#include "common/service/credit_sender.h"
+#include "services/log_replay/test_recording.h"
+
+namespace evit {
+namespace {
+
+class LogReplayTest : public ::testing::Test {
+ protected:
+  LogReplayTest() : path_(::testing::TempDir() + "log_replay_test.lcmlog"), hub_(MakeMemoryHub()) {
+    options_.log = path_;
+    options_.lossless = true;
+    options_.wait_for = {"c"};
+    replay_bus_ = OpenMemoryBus(hub_);
+    bus_ = OpenMemoryBus(hub_);
+    Collect(channels_.events, &events_);
+    Collect(channels_.imu, &imu_);
+    Collect(channels_.ground_truth, &truth_);
+    Collect(channels_.stream_end, &end_);
+    Collect(channels_.status, &status_);
+  }
+  ~LogReplayTest() override { std::filesystem::remove(path_); }
+
+  template <typename Message>
+  void Collect(const std::string& channel, std::vector<Message>* to) {
+    bus_->Subscribe(channel, [to](const std::string&, const std::uint8_t* data, std::size_t size) {
+      Message message;
+      std::string why;
+      ASSERT_TRUE(DecodeChecked(data, size, &message, &why)) << why;
+      to->push_back(message);
+    });
+  }
+  template <typename Message>
+  void Publish(const std::string& channel, const Message& message) {
+    std::vector<std::uint8_t> bytes;
+    EncodeTo(message, &bytes);
+    bus_->Publish(channel, bytes.data(), bytes.size());
+  }
+  void Credit() {
+    credit_t credit{};
+    credit.seq = credit_seq_++;
+    credit.consumer = "c";
+    credit.stream_epoch = events_.empty() ? -1 : events_.back().epoch;
+    credit.next_events_seq = events_.empty() ? 0 : events_.back().seq + 1;
+    credit.next_imu_seq = imu_.empty() ? 0 : imu_.back().seq + 1;
+    Publish(channels_.credit, credit);
+  }
+  void Order(int command, std::int64_t seek_utime = 0, double speed = 0) {
+    replay_control_t order{};
+    order.seq = order_seq_++;
+    order.command = static_cast<std::int8_t>(command);
+    order.seek_utime = seek_utime;
+    order.speed = speed;
+    Publish(channels_.replay_control, order);
+  }
+  void Step(bool with_credit = true) {
+    if (with_credit) Credit();
+    replay_bus_->Poll(0);
+    replay_->Tick();
+    bus_->Poll(0);
+  }
+  void Start(const TestRecording& recording = {}) {
+    WriteTestRecording(path_, recording);
+    replay_ = std::make_unique<LogReplay>(options_, replay_bus_.get(), channels_);
+  }
+  std::int64_t Counter(const std::string& name) {
+    const_cast<StatusReporter&>(replay_->status()).Publish();
+    bus_->Poll(0);
+    const service_status_t& status = status_.back();
+    for (int i = 0; i < status.n_counters; ++i) {
+      if (status.counter_name[i] == name) return status.counter_value[i];
+    }
+    return -1;
+  }
+
+  std::string path_;
+  LogReplayOptions options_;
+  std::shared_ptr<MemoryHub> hub_;
+  std::unique_ptr<Bus> replay_bus_, bus_;
+  Channels channels_;
+  std::unique_ptr<LogReplay> replay_;
+  std::vector<event_packet_t> events_;
+  std::vector<imu_batch_t> imu_;
+  std::vector<body_pose_t> truth_;
+  std::vector<stream_end_t> end_;
+  std::vector<service_status_t> status_;
+  std::int64_t credit_seq_ = 0, order_seq_ = 0;
+};
+
+TEST_F(LogReplayTest, WaitsForItsConsumerThenSendsEverythingAndSaysSo) {
+  Start();
+  for (int i = 0; i < 3; ++i) Step(false);
+  EXPECT_TRUE(events_.empty());
+  ASSERT_FALSE(status_.empty());
+  EXPECT_EQ(status_.back().state, "waiting");
+  EXPECT_NE(status_.back().detail.find("c"), std::string::npos);
+  for (int i = 0; i < 100 && end_.empty(); ++i) Step();
+  ASSERT_EQ(events_.size(), 100U);
+  EXPECT_EQ(imu_.size(), 200U);
+  EXPECT_EQ(truth_.size(), 100U);
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    EXPECT_EQ(events_[i].seq, static_cast<std::int64_t>(i));  // not the log's own 1000 + i
+    EXPECT_EQ(events_[i].epoch, events_[0].epoch);
+    EXPECT_EQ(events_[i].x[0], static_cast<int>(i));
+  }
+  ASSERT_FALSE(end_.empty());
+  EXPECT_EQ(end_[0].epoch, events_[0].epoch);
+  EXPECT_EQ(end_[0].n_events_messages, 100);
+  EXPECT_EQ(end_[0].n_imu_messages, 200);
+  EXPECT_EQ(end_[0].utime, 5'999'800);  // the last event
+  for (int i = 0; i < 50 && status_.back().state != "finished"; ++i) {
+    Step();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_EQ(status_.back().state, "finished");
+  EXPECT_EQ(status_.back().progress, 1.0);
+}
+
+TEST_F(LogReplayTest, NeverHasMoreThanItsWindowUnderWay) {
+  TestRecording large;
+  large.events_per_packet = 7000;
+  Start(large);
+  Step();
+  for (int i = 0; i < 20; ++i) Step(false);
+  EXPECT_EQ(events_.size(), (1U << 20) / (63'036 + 512 + 2 * (36 + 56 + 512)));
+  Step();
+  Step();
+  EXPECT_GT(events_.size(), 17U);
+}
+
+TEST_F(LogReplayTest, DropsAndCountsWhatIsBrokenOrGoesBackInTime) {
+  TestRecording bad;
+  bad.backwards_packet = 40;
+  bad.broken_packet = 60;
+  Start(bad);
+  for (int i = 0; i < 100 && end_.empty(); ++i) Step();
+  ASSERT_EQ(events_.size(), 98U);
+  EXPECT_EQ(events_.back().seq, 97);  // no gap on the wire
+  EXPECT_EQ(Counter("EVENTS.out_of_order"), 1);
+  EXPECT_EQ(Counter("EVENTS.invalid"), 1);
+  EXPECT_EQ(Counter("EVENTS.sent"), 98);
+}
+
+TEST_F(LogReplayTest, ReplaysThePartAskedFor) {
+  options_.seconds = {0.2, 0.5};
+  Start();
+  for (int i = 0; i < 100 && end_.empty(); ++i) Step();
+  ASSERT_EQ(events_.size(), 30U);
+  EXPECT_EQ(events_[0].utime, 5'200'000);
+  EXPECT_EQ(events_[0].seq, 0);
+}
+
+TEST_F(LogReplayTest, SeeksWithANewEpoch) {
+  Start();
+  for (int i = 0; i < 100 && end_.empty(); ++i) Step();
+  const std::int64_t epoch = events_.back().epoch;
+  Order(replay_control_t::SEEK, 5'900'000);
+  events_.clear();
+  imu_.clear();
+  end_.clear();
+  for (int i = 0; i < 100 && end_.empty(); ++i) Step();
+  ASSERT_EQ(events_.size(), 10U);
+  EXPECT_NE(events_[0].epoch, epoch);
+  EXPECT_EQ(events_[0].seq, 0);
+  EXPECT_EQ(events_[0].utime, 5'900'000);
+  EXPECT_EQ(end_[0].n_events_messages, 10);
+}
+
+TEST_F(LogReplayTest, PausesAndGoesOn) {
+  options_.start_paused = true;
+  Start();
+  for (int i = 0; i < 5; ++i) Step();
+  EXPECT_TRUE(events_.empty());
+  EXPECT_EQ(status_.back().state, "paused");
+  Order(replay_control_t::RESUME);
+  Step();
+  const std::size_t some = events_.size();
+  EXPECT_GT(some, 0U);
+  Order(replay_control_t::PAUSE);
+  for (int i = 0; i < 5; ++i) Step();
+  EXPECT_EQ(events_.size(), some);
+  Order(replay_control_t::RESUME);
+  for (int i = 0; i < 100 && end_.empty(); ++i) Step();
+  EXPECT_EQ(events_.size(), 100U);
+}
+
+TEST_F(LogReplayTest, ForgedControlAndCreditAreCountedAndIgnored) {
+  Start();
+  Step();
+  const std::size_t some = events_.size();
+  bus_->Publish(channels_.replay_control, "junk", 4);
+  bus_->Publish(channels_.credit, "junk", 4);
+  Order(9);
+  Order(replay_control_t::SPEED, 0, -5);
+  credit_t forged{};
+  forged.consumer = "c";
+  forged.stream_epoch = events_[0].epoch;
+  forged.next_events_seq = 1'000'000;
+  Publish(channels_.credit, forged);
+  forged.consumer = "stranger";
+  Publish(channels_.credit, forged);
+  order_seq_ = 0;
+  replay_bus_->Poll(0);
+  EXPECT_EQ(Counter("REPLAY_CONTROL.invalid"), 3);
+  EXPECT_EQ(Counter("CREDIT.invalid"), 2);
+  EXPECT_EQ(Counter("CREDIT.not_awaited"), 1);
+  for (int i = 0; i < 100 && end_.empty(); ++i) Step();
+  EXPECT_GT(some, 0U);
+  EXPECT_EQ(events_.size(), 100U);
+}
+
+TEST_F(LogReplayTest, ARestartedConsumerGetsANewStreamFromWhatWasNotConsumed) {
+  TestRecording large;
+  large.events_per_packet = 7000;
+  Start(large);
+  Step();
+  Step();
+  const std::size_t first = events_.size();
+  ASSERT_GT(first, 10U);
+  ASSERT_LT(first, 100U);
+  Step(false);
+  credit_t newcomer{};
+  newcomer.epoch = 2;
+  newcomer.consumer = "c";
+  newcomer.stream_epoch = -1;
+  const std::int64_t epoch = events_[0].epoch;
+  Publish(channels_.credit, newcomer);
+  Step(false);
+  EXPECT_EQ(Counter("CREDIT.restarts"), 1);
+  ASSERT_GT(events_.size(), first);
+  const event_packet_t& again = events_[first];
+  EXPECT_NE(again.epoch, epoch);
+  EXPECT_EQ(again.seq, 0);
+  EXPECT_LE(again.utime, events_[first - 1].utime + 10'000);  // nothing is skipped
+}
+
+TEST_F(LogReplayTest, RealTimeNeedsNoConsumer) {
+  options_.lossless = false;
+  options_.speed = 10;
+  Start();
+  const auto begin = std::chrono::steady_clock::now();
+  while (end_.empty() && std::chrono::steady_clock::now() - begin < std::chrono::seconds(5)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(replay_->poll_timeout_ms()));
+    Step(false);
+  }
+  const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  EXPECT_EQ(events_.size(), 100U);
+  EXPECT_GT(took, 0.0990);  // 0.995 s of data, ten times as fast
+  EXPECT_LT(took, 1.0);
+  Order(replay_control_t::SPEED, 0, 0);
+  replay_bus_->Poll(0);
+  EXPECT_EQ(Counter("REPLAY_CONTROL.refused"), 1);
+}
+
+TEST_F(LogReplayTest, OptionsThatDisagreeAreErrors) {
+  options_.wait_for.clear();
+  EXPECT_THROW(Start(), std::runtime_error);
+  options_.lossless = false;
+  options_.speed = 0;
+  EXPECT_THROW(Start(), std::runtime_error);
+  options_.speed = 1;
+  options_.from_utime = 100'000'000;
+  EXPECT_THROW(Start(), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace evit
