@@ -1,0 +1,149 @@
+#include "tools/evit/simulate_command.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "common/config/config.h"
+#include "tools/simulation/simulator.h"
+
+namespace evit {
+namespace {
+
+struct Options {
+  SimulationSettings settings;
+  std::string rig_path, frame = "auto", seconds, lamp;
+};
+
+// "A:B" in seconds.
+bool ParseRange(const std::string& text, double* a, double* b) {
+  char rest = 0;
+  return std::sscanf(text.c_str(), "%lf:%lf%c", a, b, &rest) == 2 && *a >= 0 && *b > *a;
+}
+
+const CLI::Validator kRange(
+    [](const std::string& text) {
+      double a = 0, b = 0;
+      return ParseRange(text, &a, &b) ? std::string()
+                                      : "'" + text + "': must be FROM:TO in seconds, 0 <= FROM < TO";
+    },
+    "FROM:TO");
+
+// The rig in the source tree this was built from, or beside the program's folder where it is installed.
+std::string DefaultRig() {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    for (const char* place : {"config/vector/rig.textproto", "../config/vector/rig.textproto",
+                              "../share/evit/config/vector/rig.textproto"}) {
+      const auto path = program.parent_path() / place;
+      if (std::filesystem::exists(path, error)) return path.string();
+    }
+  }
+  return EVIT_PROJECT_DIR "/config/vector/rig.textproto";
+}
+
+void PrintProgress(double share) {
+  constexpr int kWidth = 40;
+  const int done = static_cast<int>(share * kWidth);
+  std::fprintf(stderr, "\r[%s%s] %3d %%%s", std::string(done, '#').c_str(),
+               std::string(kWidth - done, '.').c_str(), static_cast<int>(share * 100),
+               share >= 1 ? "\n" : "");
+}
+
+void PrintSummary(const SimulationSettings& settings, const SimulationSummary& s) {
+  std::printf("%s: %.2f s; %s; spline fits to %.2f mm, %.3f deg\n", s.name.c_str(), s.duration_s,
+              s.motion.note.c_str(), 1e3 * s.motion.fit_rms_m, s.motion.fit_rms_deg);
+  std::printf("image speed %.0f px/s mean, %.0f at most; depth %.2f m mean; %zu renders\n", s.speed.mean,
+              s.speed.max, s.mean_depth, s.n_renders);
+  std::printf(
+      "events %zu (%.2f million/s mean, %.2f peak; %.2f noise), IMU samples %zu, map points %zu of %d "
+      "views\n",
+      s.events.total(), 1e-6 * static_cast<double>(s.events.total()) / s.duration_s,
+      1e-6 * s.events.peak_rate, 1e-6 * static_cast<double>(s.events.noise) / s.duration_s, s.n_imu,
+      s.n_map_points, s.n_map_views);
+  std::printf("%.1f s wall; written to %s\n", s.wall_s, settings.out.c_str());
+}
+
+void Run(Options* options) {
+  SimulationSettings& s = options->settings;
+  const std::string rig_path = options->rig_path.empty() ? DefaultRig() : options->rig_path;
+  const Rig rig = LoadRig(rig_path);
+  if (options->frame == "body") s.trajectory.frame = TrajectoryFrame::kBody;
+  if (options->frame == "marker-yup") s.trajectory.frame = TrajectoryFrame::kMarkerYUp;
+  if (!options->seconds.empty()) ParseRange(options->seconds, &s.trajectory.begin_s, &s.trajectory.end_s);
+  if (!options->lamp.empty()) ParseRange(options->lamp, &s.lamp_off_s, &s.lamp_on_s);
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const SimulationSummary summary =
+      Simulate(s, rig, "simulated, from " + std::filesystem::path(rig_path).filename().string(),
+               terminal ? std::function<void(double)>(PrintProgress) : nullptr);
+  PrintSummary(s, summary);
+}
+
+}  // namespace
+
+void AddSimulateCommand(CLI::App* app) {
+  CLI::App* command =
+      app->add_subcommand("simulate", "Simulate an event camera and an IMU in a furnished room");
+  const auto options = std::make_shared<Options>();
+  SimulationSettings& s = options->settings;
+  s.threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 64);
+  command->option_defaults()->always_capture_default();
+  command->add_option("--trajectory", s.trajectory.source, "TUM file, builtin:handheld or builtin:fast")
+      ->required();
+  command->add_option("--scene", s.scene_seed, "Seed of the room");
+  command->add_option("--out", s.out, "Folder to write")->required();
+  command->add_option("--name", s.name, "Name of the sequence (default: of the trajectory)");
+  command->add_option("--rig", options->rig_path, "Rig file (default: VECtor's)")->check(CLI::ExistingFile);
+  command->add_option("--seed", s.seed, "Seed of all noise");
+  command->add_option("--threads", s.threads, "Threads; the result is the same with any number");
+  command->add_option("--preview", s.previews, "Pictures to write: image | events | map on events");
+  command->add_option("--lamp", options->lamp, "The lamp goes off and on again, s")->check(kRange);
+  command->add_option("--lamp-share", s.lamp_share, "Share of the light that stays");
+
+  command->add_option("--seconds", options->seconds, "Part of the trajectory file, s from its start")
+      ->check(kRange)
+      ->group("Motion");
+  command->add_option("--duration", s.trajectory.duration_s, "Length of a builtin trajectory, s")
+      ->group("Motion");
+  command->add_option("--trajectory-frame", options->frame, "What the file's poses are")
+      ->check(CLI::IsMember({"auto", "body", "marker-yup"}))
+      ->group("Motion");
+  command->add_option("--knot-ms", s.trajectory.knot_ms, "Knot spacing of the smoothing spline")
+      ->group("Motion");
+
+  const auto add = [&](const char* group, const char* name, auto* value, const char* text) {
+    command->add_option(name, *value, text)->group(group);
+  };
+  add("Event camera", "--threshold", &s.sensor.threshold, "Contrast threshold, of log intensity");
+  add("Event camera", "--threshold-spread", &s.sensor.threshold_spread, "Its deviation over pixels, share");
+  add("Event camera", "--low-pass-ms", &s.sensor.low_pass_ms, "Time constant of the photoreceptor");
+  add("Event camera", "--refractory-ms", &s.sensor.refractory_ms, "Refractory time");
+  add("Event camera", "--noise-hz", &s.sensor.noise_hz, "Background events per pixel and second");
+  add("Event camera", "--hot-pixels", &s.sensor.hot_pixels, "Number of hot pixels");
+  add("Event camera", "--max-step-px", &s.max_step_px, "Image motion between renders");
+  add("IMU", "--accel-bias", &s.imu.accel_bias, "Initial bias, m/s^2, in a random direction");
+  add("IMU", "--gyro-bias", &s.imu.gyro_bias, "Initial bias, rad/s, in a random direction");
+  add("IMU", "--imu-noise", &s.imu.noise_factor, "Factor on the rig's noise densities");
+  add("Map", "--map-interval", &s.map.interval_s, "Seconds between views considered");
+  add("Map", "--map-depth-noise", &s.map.depth_noise, "Share of the depth");
+  add("Map", "--map-edge-noise", &s.map.edge_noise_px, "px across the edge");
+  add("Map", "--map-view-jitter", &s.map.view_jitter_m, "m, per axis of a view's position");
+  add("Map", "--map-outliers", &s.map.outlier_share, "Share of outliers");
+  add("Map", "--map-outlier-distance", &s.map.outlier_m, "m");
+  add("Map", "--map-voxel", &s.map.voxel_m, "m");
+
+  command->callback([options, app] {
+    // The words as typed are not kept by the parser; what it read is.
+    options->settings.command =
+        "evit simulate\n" + app->get_subcommand("simulate")->config_to_str(false, false);
+    Run(options.get());
+  });
+}
+
+}  // namespace evit

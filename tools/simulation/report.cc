@@ -1,0 +1,116 @@
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+
+#include "tools/simulation/sequence_files.h"
+
+namespace evit {
+namespace {
+
+// Just enough JSON for a flat report with sections.
+class Json {
+ public:
+  Json& Open(const std::string& key) {
+    Key(key);
+    text_ << "{";
+    first_ = true;
+    ++depth_;
+    return *this;
+  }
+  Json& Close() {
+    --depth_;
+    first_ = false;
+    text_ << '\n' << std::string(2 * depth_, ' ') << '}';
+    return *this;
+  }
+  Json& Number(const std::string& key, double value) {
+    Key(key);
+    text_ << std::setprecision(10) << value;
+    return *this;
+  }
+  Json& Text(const std::string& key, const std::string& value) {
+    Key(key);
+    Quote(value);
+    return *this;
+  }
+  Json& Vector(const std::string& key, const Eigen::Vector3d& v) {
+    Key(key);
+    text_ << '[' << v.x() << ", " << v.y() << ", " << v.z() << ']';
+    return *this;
+  }
+  std::string Take() { return text_.str() + "\n"; }
+
+ private:
+  void Key(const std::string& key) {
+    if (depth_ == 0) return;
+    text_ << (first_ ? "\n" : ",\n") << std::string(2 * depth_, ' ');
+    first_ = false;
+    Quote(key);
+    text_ << ": ";
+  }
+  void Quote(const std::string& value) {
+    text_ << '"';
+    for (const char c : value) {
+      if (c == '"' || c == '\\') {
+        text_ << '\\' << c;
+      } else {
+        text_ << (static_cast<unsigned char>(c) < 0x20 ? ' ' : c);
+      }
+    }
+    text_ << '"';
+  }
+
+  std::ostringstream text_;
+  bool first_ = true;
+  int depth_ = 0;
+};
+
+}  // namespace
+
+void WriteReport(const std::string& path, const SimulationSettings& settings, const SimulationSummary& s) {
+  Json json;
+  json.Open("").Text("name", s.name).Text("command", settings.command);
+  json.Number("scene_seed", static_cast<double>(settings.scene_seed))
+      .Number("seed", static_cast<double>(settings.seed));
+  json.Open("trajectory").Text("source", settings.trajectory.source).Text("note", s.motion.note);
+  json.Number("begin_us", static_cast<double>(s.motion.begin)).Number("duration_s", s.duration_s);
+  json.Number("knot_ms", settings.trajectory.knot_ms);
+  json.Number("fit_rms_m", s.motion.fit_rms_m).Number("fit_rms_deg", s.motion.fit_rms_deg).Close();
+  json.Open("sensor").Number("threshold", settings.sensor.threshold);
+  json.Number("threshold_spread", settings.sensor.threshold_spread);
+  json.Number("low_pass_ms", settings.sensor.low_pass_ms)
+      .Number("refractory_ms", settings.sensor.refractory_ms);
+  json.Number("noise_hz", settings.sensor.noise_hz).Number("hot_pixels", settings.sensor.hot_pixels).Close();
+  json.Open("imu")
+      .Number("samples", static_cast<double>(s.n_imu))
+      .Number("noise_factor", settings.imu.noise_factor);
+  json.Vector("first_gyro_bias", s.first_bias.gyro).Vector("first_accel_bias", s.first_bias.accel);
+  json.Vector("last_gyro_bias", s.last_bias.gyro).Vector("last_accel_bias", s.last_bias.accel).Close();
+  json.Open("events").Number("total", static_cast<double>(s.events.total()));
+  json.Number("positive", static_cast<double>(s.events.positive));
+  json.Number("negative", static_cast<double>(s.events.negative));
+  json.Number("noise", static_cast<double>(s.events.noise));
+  json.Number("mean_per_s", static_cast<double>(s.events.total()) / s.duration_s);
+  json.Number("peak_per_s_over_10ms", s.events.peak_rate).Close();
+  json.Open("image")
+      .Number("renders", static_cast<double>(s.n_renders))
+      .Number("max_step_px", settings.max_step_px);
+  json.Number("speed_mean_px_s", s.speed.mean).Number("speed_median_px_s", s.speed.median);
+  json.Number("speed_p95_px_s", s.speed.p95).Number("speed_max_px_s", s.speed.max);
+  json.Number("mean_depth_m", s.mean_depth).Close();
+  json.Open("map").Number("points", static_cast<double>(s.n_map_points)).Number("views", s.n_map_views);
+  json.Number("depth_noise", settings.map.depth_noise).Number("edge_noise_px", settings.map.edge_noise_px);
+  json.Number("view_jitter_m", settings.map.view_jitter_m)
+      .Number("outlier_share", settings.map.outlier_share);
+  json.Number("outlier_m", settings.map.outlier_m).Number("voxel_m", settings.map.voxel_m).Close();
+  json.Open("lamp").Number("off_s", settings.lamp_off_s).Number("on_s", settings.lamp_on_s);
+  json.Number("share", settings.lamp_share).Close();
+  json.Close();
+  std::ofstream file(path);
+  file << json.Take();
+  file.close();
+  if (!file) throw std::runtime_error("cannot write " + path);
+}
+
+}  // namespace evit

@@ -1,0 +1,136 @@
+#include "tools/simulation/sequence_files.h"
+
+#include <google/protobuf/text_format.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "common/config/rig.pb.h"
+
+namespace evit {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Stamp(Utime t) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%lld.%06lld", static_cast<long long>(t / kMicrosPerSecond),
+                static_cast<long long>(t % kMicrosPerSecond));
+  return text;
+}
+
+void WriteFile(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error("cannot write " + path);
+}
+
+void SetTransform(const SE3& T, config::Transform* out) {
+  Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
+  m.topLeftCorner<3, 3>() = T.R();
+  m.topRightCorner<3, 1>() = T.p;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) out->add_m(m(row, column));
+  }
+}
+
+}  // namespace
+
+StagedFolder::StagedFolder(const std::string& final_folder) : final_(fs::absolute(final_folder)) {
+  if (!final_.has_filename()) final_ = final_.parent_path();  // "a/" -> "a"
+  std::error_code error;
+  if (fs::exists(final_, error) && !fs::is_directory(final_, error)) {
+    throw std::runtime_error("cannot write to " + final_.string() + ": it is a file, a folder is needed");
+  }
+  fs::create_directories(final_, error);
+  staging_ = final_ / ".incomplete";
+  if (!error) fs::remove_all(staging_, error);
+  if (!error) fs::create_directory(staging_, error);
+  if (error) throw std::runtime_error("cannot write to " + final_.string() + ": " + error.message());
+}
+
+StagedFolder::~StagedFolder() {
+  std::error_code ignored;
+  fs::remove_all(staging_, ignored);
+  fs::remove(final_, ignored);  // only if empty: it was made for nothing
+}
+
+void StagedFolder::Commit() {
+  for (const auto& entry : fs::directory_iterator(staging_)) {
+    std::error_code error;
+    fs::rename(entry.path(), final_ / entry.path().filename(), error);
+    if (error) {
+      throw std::runtime_error("cannot write " + (final_ / entry.path().filename()).string() + ": " +
+                               error.message());
+    }
+  }
+}
+
+void WriteImuFile(const std::string& path, const SimulatedImu& imu) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(9);
+  text << "# IMU readings (simulated)\n# rad/s, m/s^2; the orientation columns are not simulated\n"
+       << "# timestamp gx gy gz ax ay az qx qy qz qw\n";
+  for (const ImuSample& s : imu.samples) {
+    text << Stamp(s.t);
+    for (int i = 0; i < 3; ++i) text << ' ' << s.gyro[i];
+    for (int i = 0; i < 3; ++i) text << ' ' << s.accel[i];
+    text << " 0 0 0 1\n";
+  }
+  WriteFile(path, text.str());
+}
+
+void WriteGroundTruthFile(const std::string& path, const std::string& name, const Motion& motion,
+                          const Rig& rig) {
+  std::ostringstream text;
+  text << "# ground truth for " << name << "1.synced (simulated; marker body in the map frame, z up)\n"
+       << "# timestamp tx ty tz qx qy qz qw\n";
+  const SE3 T_body_marker = rig.T_marker_body.Inverse();
+  for (int k = 0;; ++k) {
+    const Utime t = motion.begin + k * kMicrosPerSecond / 120;
+    if (t > motion.end) break;
+    text << TumLine({t, motion.spline.Pose(t) * T_body_marker}) << '\n';
+  }
+  WriteFile(path, text.str());
+}
+
+void WriteTruth(const std::string& path, const Motion& motion, const SimulatedImu& imu) {
+  Trajectory truth;
+  for (const ImuSample& sample : imu.samples) truth.push_back({sample.t, motion.spline.Pose(sample.t)});
+  WriteTum(path, truth);
+}
+
+void WriteRigFile(const std::string& path, const Rig& rig, const std::string& name) {
+  config::Rig out;
+  out.set_name(name);
+  config::Camera* camera = out.mutable_camera();
+  camera->set_model(CameraModelName(rig.camera.model));
+  camera->set_width(rig.camera.width);
+  camera->set_height(rig.camera.height);
+  camera->set_fx(rig.camera.fx);
+  camera->set_fy(rig.camera.fy);
+  camera->set_cx(rig.camera.cx);
+  camera->set_cy(rig.camera.cy);
+  const int n = rig.camera.model == Camera::Model::kPlumbBob ? 5 : 4;
+  for (int i = 0; i < n; ++i) camera->add_distortion(rig.camera.distortion[i]);
+  camera->set_time_offset_us(static_cast<double>(rig.camera_time_offset));
+  config::Imu* imu = out.mutable_imu();
+  imu->set_rate_hz(rig.imu_rate_hz);
+  imu->set_gyro_noise_density(rig.imu_noise.gyro_density);
+  imu->set_accel_noise_density(rig.imu_noise.accel_density);
+  imu->set_gyro_random_walk(rig.imu_noise.gyro_random_walk);
+  imu->set_accel_random_walk(rig.imu_noise.accel_random_walk);
+  SetTransform(rig.T_body_camera, out.mutable_t_body_camera());
+  SetTransform(rig.T_marker_body, out.mutable_t_marker_body());
+  out.set_gravity(rig.gravity);
+  std::string text;
+  google::protobuf::TextFormat::PrintToString(out, &text);
+  WriteFile(path, "# The rig that was simulated (evit simulate).\n" + text);
+}
+
+}  // namespace evit

@@ -1,0 +1,111 @@
+#include "tools/simulation/simulator.h"
+
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+
+#include "tools/simulation/preview.h"
+#include "tools/simulation/room.h"
+#include "tools/simulation/sequence_files.h"
+#include "tools/vector/event_file.h"
+
+namespace evit {
+namespace {
+
+void Check(const SimulationSettings& s, const Rig& rig) {
+  const auto require = [](bool ok, const char* what) {
+    if (!ok) throw std::runtime_error(std::string("bad setting: ") + what);
+  };
+  require(!s.out.empty(), "no output folder");
+  require(s.max_step_px >= 0.05 && s.max_step_px <= 1, "image step must be 0.05 to 1 px");
+  require(s.sensor.threshold >= 0.02 && s.sensor.threshold <= 2, "contrast threshold must be 0.02 to 2");
+  require(s.sensor.threshold_spread >= 0 && s.sensor.threshold_spread < 0.5,
+          "threshold spread must be 0 to 0.5");
+  require(s.sensor.low_pass_ms >= 0 && s.sensor.refractory_ms >= 0,
+          "times of the sensor must not be negative");
+  require(s.sensor.noise_hz >= 0 && s.sensor.noise_hz <= 1000, "noise must be 0 to 1000 Hz per pixel");
+  require(s.sensor.hot_pixels >= 0 && s.sensor.hot_pixels <= 10000, "hot pixels must be 0 to 10000");
+  require(s.imu.noise_factor >= 0 && s.imu.accel_bias >= 0 && s.imu.gyro_bias >= 0,
+          "IMU errors must not be negative");
+  require(s.map.voxel_m >= 1e-3 && s.map.voxel_m <= 1, "voxel must be 0.001 to 1 m");
+  require(s.map.interval_s >= 0.01, "map interval must be at least 0.01 s");
+  require(s.lamp_share > 0 && s.lamp_on_s >= s.lamp_off_s,
+          "lamp must go off before it comes on, to a share over 0");
+  require(s.threads >= 1 && s.threads <= 256, "threads must be 1 to 256");
+  require(s.previews >= 0 && s.previews <= 1000, "previews must be 0 to 1000");
+  require(rig.camera.width >= 16 && rig.camera.height >= 16 && rig.imu_rate_hz > 0,
+          "rig without camera or IMU rate");
+}
+
+}  // namespace
+
+SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, const std::string& rig_name,
+                           const std::function<void(double)>& progress) {
+  const auto started = std::chrono::steady_clock::now();
+  Check(settings, rig);
+  const auto report = [&](double share) {
+    if (progress) progress(share);
+  };
+  SimulationSummary summary;
+  summary.motion = LoadMotion(settings.trajectory, rig);
+  const Scene scene = MakeRoom(settings.scene_seed);
+  Motion& motion = summary.motion;
+  PlaceInRoom(rig, scene, &motion);
+  summary.name = settings.name.empty() ? motion.name : settings.name;
+  if (summary.name.find('/') != std::string::npos)
+    throw std::runtime_error("sequence name must not contain '/'");
+  summary.duration_s = ToSeconds(motion.end - motion.begin);
+  StagedFolder folder(settings.out);
+  const std::string base = summary.name + "1.synced";
+
+  const SimulatedImu imu =
+      SimulateImu(motion.spline, rig, settings.imu, motion.begin, motion.end, settings.seed);
+  WriteImuFile(folder.File(base + ".imu.txt"), imu);
+  WriteGroundTruthFile(folder.File(base + ".gt.txt"), summary.name, motion, rig);
+  WriteTruth(folder.File("truth.tum"), motion, imu);
+  WriteRigFile(folder.File("rig.textproto"), rig, rig_name);
+  summary.n_imu = imu.samples.size();
+  summary.first_bias = imu.biases.front();
+  summary.last_bias = imu.biases.back();
+
+  const Renderer renderer(rig.camera, scene);
+  const RenderSchedule schedule = PlanRenders(motion.spline, rig, scene, motion.begin, motion.end,
+                                              settings.max_step_px, settings.threads);
+  summary.n_renders = schedule.times.size();
+  summary.speed = schedule.speed;
+  summary.mean_depth = schedule.mean_depth;
+  report(0.02);
+  const PointMap map = MakeEdgeMap(renderer, rig, motion.spline, motion.begin, motion.end, settings.map,
+                                   settings.seed, settings.threads, &summary.n_map_views);
+  if (map.points.empty()) throw std::runtime_error("the map would be empty: nothing with edges is in view");
+  summary.n_map_points = map.points.size();
+  WriteBinaryPcd(folder.File("map.pcd"), map);
+  report(0.05);
+
+  Lamp lamp;
+  lamp.off = motion.begin + static_cast<Utime>(settings.lamp_off_s * 1e6);
+  lamp.on = motion.begin + static_cast<Utime>(settings.lamp_on_s * 1e6);
+  lamp.share = settings.lamp_share;
+  Preview preview(renderer, rig, motion.spline, motion.begin, motion.end, settings.previews);
+  // Event stamps are in the camera's clock.
+  EventFileWriter writer(folder.File(base + ".left_event.hdf5"), motion.begin - rig.camera_time_offset);
+  EventArray shifted;
+  summary.events = SimulateEvents(
+      renderer, motion.spline, rig, schedule, lamp, settings.sensor, settings.seed, settings.threads,
+      [&](const EventArray& events) {
+        preview.Add(events);
+        shifted = events;
+        for (Utime& t : shifted.t) t -= rig.camera_time_offset;
+        writer.Append(shifted);
+      },
+      [&](double share) { report(0.05 + 0.94 * share); });
+  writer.Close();
+  preview.Write(map, [&](const std::string& name) { return folder.File(name); });
+  summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  WriteReport(folder.File("simulation.json"), settings, summary);
+  folder.Commit();
+  report(1);
+  return summary;
+}
+
+}  // namespace evit

@@ -1,0 +1,27 @@
+#include "tools/simulation/texture.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+namespace evit {
+
+Texture::Texture(const cv::Mat& picture, float texel_size) : texel_size_(texel_size) {
+  cv::Mat image = picture;
+  while (true) {
+    Level level;
+    level.width = image.cols;
+    level.height = image.rows;
+    level.scale_s = static_cast<float>(image.cols) / static_cast<float>(picture.cols);
+    level.scale_t = static_cast<float>(image.rows) / static_cast<float>(picture.rows);
+    for (int y = 0; y < image.rows; ++y) {
+      level.data.insert(level.data.end(), image.ptr<float>(y), image.ptr<float>(y) + image.cols);
+    }
+    levels_.push_back(std::move(level));
+    if (image.cols == 1 && image.rows == 1) break;
+    cv::Mat half;
+    cv::resize(image, half, {std::max(1, image.cols / 2), std::max(1, image.rows / 2)}, 0, 0, cv::INTER_AREA);
+    image = half;
+  }
+}
+
+}  // namespace evit
