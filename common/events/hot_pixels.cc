@@ -1,0 +1,73 @@
+#include "common/events/hot_pixels.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace evit {
+namespace {
+
+constexpr int kOverNeighbours = 10;  // a hot pixel fires this much more often than its neighbours' median
+
+}  // namespace
+
+HotPixels::HotPixels(int width, int height, double rate_hz)
+    : width_(width), height_(height), threshold_(rate_hz * ToSeconds(kWindow)) {
+  if (threshold_ > 0) counts_.assign(std::size_t(width) * height, 0);
+}
+
+void HotPixels::Clear() {
+  std::fill(counts_.begin(), counts_.end(), std::uint16_t{0});
+  pixels_.clear();
+  started_ = false;
+}
+
+void HotPixels::AdvanceTo(Utime t) {
+  if (counts_.empty()) return;
+  if (started_ && t >= window_end_) {
+    CloseWindow();
+    // A window or more without events: nothing is hot.
+    if (t >= window_end_ + kWindow) pixels_.clear();
+  }
+  if (!started_ || t >= window_end_) {
+    const Utime phase = ((t % kWindow) + kWindow) % kWindow;
+    window_end_ = t - phase + kWindow;
+    started_ = true;
+  }
+}
+
+void HotPixels::Update(const EventArray& events, std::size_t begin, std::size_t end) {
+  if (counts_.empty()) return;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!started_ || events.t[i] >= window_end_) AdvanceTo(events.t[i]);
+    std::uint16_t& count = counts_[events.y[i] * std::size_t(width_) + events.x[i]];
+    if (count < std::numeric_limits<std::uint16_t>::max()) ++count;
+  }
+}
+
+void HotPixels::CloseWindow() {
+  pixels_.clear();
+  for (int y = 0; y < height_; ++y) {
+    const std::uint16_t* const row = counts_.data() + y * std::size_t(width_);
+    for (int x = 0; x < width_; ++x) {
+      if (row[x] > threshold_ && row[x] > kOverNeighbours * (NeighbourMedian(x, y) + 1)) {
+        pixels_.push_back(y * width_ + x);
+      }
+    }
+  }
+  std::fill(counts_.begin(), counts_.end(), std::uint16_t{0});
+}
+
+int HotPixels::NeighbourMedian(int x, int y) const {
+  std::uint16_t around[8];
+  int n = 0;
+  for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height_ - 1); ++v) {
+    for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width_ - 1); ++u) {
+      if (u != x || v != y) around[n++] = counts_[v * std::size_t(width_) + u];
+    }
+  }
+  if (n == 0) return 0;
+  std::nth_element(around, around + n / 2, around + n);
+  return around[n / 2];
+}
+
+}  // namespace evit

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/events/event.h"
+
+namespace evit {
+
+/// Finds pixels that fire without cause: above a rate, and far above their neighbours. Counts events in
+/// windows of data time (never the host's), so the same events give the same pixels however they arrive.
+class HotPixels {
+ public:
+  static constexpr Utime kWindow = 500'000;  // us
+
+  /// `rate_hz`: events/s above which a pixel may be hot; 0 turns this off.
+  HotPixels(int width, int height, double rate_hz);
+
+  /// Events [begin, end) inside the image, in time order after all of earlier calls.
+  void Update(const EventArray& events, std::size_t begin, std::size_t end);
+  /// Time has come to t without (more) events.
+  void AdvanceTo(Utime t);
+  void Clear();
+
+  /// Pixels (y * width + x) found in the last whole window, ascending.
+  const std::vector<std::int32_t>& pixels() const { return pixels_; }
+
+ private:
+  void CloseWindow();
+  int NeighbourMedian(int x, int y) const;
+
+  int width_, height_;
+  double threshold_;  // events per window
+  Utime window_end_ = 0;
+  bool started_ = false;
+  std::vector<std::uint16_t> counts_;  // [height][width]
+  std::vector<std::int32_t> pixels_;
+};
+
+}  // namespace evit
