@@ -33,9 +33,11 @@ void EncodeTo(const Message& message, std::vector<std::uint8_t>* buffer) {
   message.encode(buffer->data(), 0, static_cast<int>(buffer->size()));
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): the argument is a type
 #define EVIT_INSTANTIATE(MESSAGE)                                                                 \
   template bool DecodeChecked<MESSAGE>(const std::uint8_t*, std::size_t, MESSAGE*, std::string*); \
   template void EncodeTo<MESSAGE>(const MESSAGE&, std::vector<std::uint8_t>*);
+// NOLINTEND(bugprone-macro-parentheses)
 
 EVIT_INSTANTIATE(body_pose_t)
 EVIT_INSTANTIATE(credit_t)

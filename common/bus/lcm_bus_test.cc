@@ -99,7 +99,7 @@ TEST(LcmBus, WhatCannotBeSentIsCounted) {
 
 TEST(LcmBus, ALargeMessageArrivesWhole) {
   const auto bus = OpenLcmBus(kUrl);
-  std::vector<std::uint8_t> message(640 * 480), heard;
+  std::vector<std::uint8_t> message(std::size_t{640} * 480), heard;
   for (std::size_t i = 0; i < message.size(); ++i) message[i] = static_cast<std::uint8_t>(i * 7 + i / 256);
   bus->Subscribe("KEYFRAME", [&](const std::string&, const std::uint8_t* data, std::size_t size) {
     heard.assign(data, data + size);

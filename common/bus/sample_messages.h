@@ -62,7 +62,7 @@ inline imu_batch_t Sample<imu_batch_t>(int n) {
   Stamp(&m);
   m.n = n;
   for (int i = 0; i < n; ++i) {
-    m.sample_utime.push_back(m.utime + 5000 * i);
+    m.sample_utime.push_back(m.utime + std::int64_t{5000} * i);
     m.gyro.push_back({0.1 * i, 0.2, -0.3});
     m.accel.push_back({0.0, 9.81, 0.1 * i});
   }
@@ -73,7 +73,7 @@ template <>
 inline keyframe_t Sample<keyframe_t>(int n) {
   keyframe_t m{};
   Stamp(&m);
-  m.previous_utime = m.utime - 5000 * n;
+  m.previous_utime = m.utime - std::int64_t{5000} * n;
   m.high_rate = 1;
   m.n_events = 10'000;
   m.decay_us = 20'000;
@@ -84,7 +84,7 @@ inline keyframe_t Sample<keyframe_t>(int n) {
   m.surface.assign(2, std::vector<std::uint8_t>(static_cast<std::size_t>(m.surface_size), 200));
   m.n_imu = n;
   for (int i = 0; i < n; ++i) {
-    m.imu_utime.push_back(m.previous_utime + 5000 * i);
+    m.imu_utime.push_back(m.previous_utime + std::int64_t{5000} * i);
     m.gyro.push_back({0.1 * i, 0.2, -0.3});
     m.accel.push_back({0.0, 9.81, 0.1 * i});
   }
@@ -194,7 +194,7 @@ inline window_state_t Sample<window_state_t>(int n) {
   m.n_nodes = n;
   for (int i = 0; i < n; ++i) {
     node_state_t node{};
-    node.utime = m.utime + 20'000 * i;
+    node.utime = m.utime + std::int64_t{20'000} * i;
     node.keyframe_seq = i;
     SetPose(node.position, node.orientation);
     m.node.push_back(node);

@@ -106,7 +106,7 @@ bool CheckField(const WireField& field, WireCursor* cursor, Counts* counts) {
     case WireField::Kind::kArray: {
       // Counts are below 2^25 and elements below 2^10 bytes: this product fits 64 bits.
       const std::int64_t columns = field.columns == nullptr ? 1 : counts->Get(field.columns);
-      return cursor->Skip(field.size * counts->Get(field.rows) * columns, field.rows);
+      return cursor->Skip(field.size * (counts->Get(field.rows) * columns), field.rows);
     }
     case WireField::Kind::kText: {
       const std::int64_t n = field.rows == nullptr ? 1 : counts->Get(field.rows);

@@ -11,7 +11,7 @@ namespace evit {
 struct WireField {
   enum class Kind { kBytes, kCount, kArray, kText };
   Kind kind;
-  std::int64_t size;     // kBytes: bytes in all; kArray: bytes per element
+  int size;              // kBytes: bytes in all; kArray: bytes per element
   const char* name;      // kCount, kText: of the field
   std::int32_t maximum;  // kCount: largest value accepted (the smallest is 0)
   const char* rows;      // kArray: the count that says how many; kText: null for one string, else the count
@@ -22,15 +22,13 @@ struct WireField {
 using WireLayout = std::vector<WireField>;
 
 /// `n` bytes of fields of fixed size.
-constexpr WireField Bytes(std::int64_t n) {
-  return {WireField::Kind::kBytes, n, nullptr, 0, nullptr, nullptr};
-}
+constexpr WireField Bytes(int n) { return {WireField::Kind::kBytes, n, nullptr, 0, nullptr, nullptr}; }
 /// An int32 that later fields use as their length.
 constexpr WireField Count(const char* name, std::int32_t maximum) {
   return {WireField::Kind::kCount, 4, name, maximum, nullptr, nullptr};
 }
 /// `rows` (times `columns`) elements of `bytes` each.
-constexpr WireField Array(std::int64_t bytes, const char* rows, const char* columns = nullptr) {
+constexpr WireField Array(int bytes, const char* rows, const char* columns = nullptr) {
   return {WireField::Kind::kArray, bytes, nullptr, 0, rows, columns};
 }
 /// A string, or `rows` strings: int32 length with the closing NUL, then the characters.
