@@ -36,16 +36,15 @@ void ActiveEventSurface::MoveBase(Utime t) {
 }
 
 std::int32_t ActiveEventSurface::Relative(Utime t) const {
-  return static_cast<std::int32_t>(std::min<Utime>(t - base_, kMaxRelative + 100'000'000));
+  return static_cast<std::int32_t>(std::clamp<Utime>(t - base_, 0, kMaxRelative + 100'000'000));
 }
 
 void ActiveEventSurface::Update(const Utime* t, const std::uint16_t* x, const std::uint16_t* y,
                                 const std::uint8_t* polarity, std::size_t n) {
   for (std::size_t begin = 0; begin < n;) {
     if (!has_base_ || t[begin] - base_ >= kMaxRelative) MoveBase(t[begin]);
-    const std::size_t end = t[n - 1] - base_ < kMaxRelative
-                                ? n
-                                : std::lower_bound(t + begin, t + n, base_ + kMaxRelative) - t;
+    const std::size_t end =
+        t[n - 1] - base_ < kMaxRelative ? n : std::lower_bound(t + begin, t + n, base_ + kMaxRelative) - t;
     UpdateWithinBase(t + begin, x + begin, y + begin, polarity + begin, end - begin);
     begin = end;
   }

@@ -22,11 +22,12 @@ class SurfaceRenderer {
   SurfaceRenderer(int width, int height, const config::Surface& settings);
 
   struct View {
-    Utime t = 0;          // the instant; `surface` holds exactly the events up to it
-    double decay_us = 0;  // > 0
+    Utime t = 0;                        // the instant; `surface` holds exactly the events up to it
+    double decay_us = 0;                // > 0
     const EventArray* after = nullptr;  // events [begin, end) of it come after t; null: none
     std::size_t begin = 0, end = 0;
-    const std::vector<std::int32_t>* ignored = nullptr;  // pixels (y * width + x) taken for defect; null: none
+    const std::vector<std::int32_t>* ignored =
+        nullptr;  // pixels (y * width + x) taken for defect; null: none
   };
   /// One image, or two where the settings split polarities: brighter, then darker.
   std::vector<Image> Render(const ActiveEventSurface& surface, const View& view);

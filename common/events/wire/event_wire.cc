@@ -22,7 +22,8 @@ std::size_t EndOfPacket(const EventArray& events, std::size_t begin) {
 std::vector<event_packet_t> ToPackets(const EventArray& events, std::int64_t epoch, std::int64_t first_seq) {
   for (std::size_t i = 0; i < events.size(); ++i) {
     if (i > 0 && events.t[i] < events.t[i - 1]) {
-      throw std::invalid_argument("event " + std::to_string(i) + " is earlier than the one before: sort first");
+      throw std::invalid_argument("event " + std::to_string(i) +
+                                  " is earlier than the one before: sort first");
     }
     if (events.x[i] > kMaxCoordinate || events.y[i] > kMaxCoordinate) {
       throw std::invalid_argument("event " + std::to_string(i) + ": pixel coordinate above 32767");

@@ -1,0 +1,43 @@
+#include "common/events/keyframe_policy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace evit {
+namespace {
+
+constexpr Utime kImuHole = 100'000;  // us between two samples: no keyframe in between
+
+Utime Micros(double ms) { return std::max<Utime>(std::llround(ms * 1e3), 1); }
+
+}  // namespace
+
+KeyframePolicy::KeyframePolicy(const config::Keyframes& keyframes, const config::Surface& surface)
+    : n_event_(keyframes.n_event()),
+      min_events_(keyframes.min_events()),
+      n_imu_(keyframes.n_imu()),
+      max_interval_(Micros(keyframes.max_interval_ms())),
+      high_rate_interval_(Micros(keyframes.bootstrap_interval_ms())),
+      tail_px_(surface.tail_px()),
+      min_decay_us_(surface.min_decay_ms() * 1e3),
+      max_decay_us_(surface.max_decay_ms() * 1e3),
+      default_decay_us_(surface.default_decay_ms() * 1e3) {}
+
+std::optional<Utime> KeyframePolicy::Due(const Situation& s) const {
+  if (IsHighRate(s.mode)) {
+    const Utime stamp = s.last + high_rate_interval_;
+    if (stamp > s.imu) return std::nullopt;
+    return stamp > s.imu_before && s.imu - s.imu_before > kImuHole ? s.imu : stamp;
+  }
+  const bool enough = s.n_events >= n_event_ && s.n_imu >= n_imu_;
+  const bool late = s.imu - s.last >= max_interval_ && s.n_events >= min_events_;
+  if (enough || late) return s.imu;
+  return std::nullopt;
+}
+
+double KeyframePolicy::DecayUs(double image_speed) const {
+  if (!(image_speed > 0)) return default_decay_us_;
+  return std::clamp(tail_px_ / image_speed * 1e6, min_decay_us_, max_decay_us_);
+}
+
+}  // namespace evit

@@ -1,0 +1,106 @@
+#include "common/events/stream_merger.h"
+
+#include <algorithm>
+
+namespace evit {
+namespace {
+
+constexpr std::size_t kCompactAt = 1 << 16;  // events: dropping them from the front costs a move of the rest
+
+void EraseFront(EventArray* events, std::size_t n) {
+  const auto count = static_cast<std::ptrdiff_t>(n);
+  events->t.erase(events->t.begin(), events->t.begin() + count);
+  events->x.erase(events->x.begin(), events->x.begin() + count);
+  events->y.erase(events->y.begin(), events->y.begin() + count);
+  events->p.erase(events->p.begin(), events->p.begin() + count);
+}
+
+}  // namespace
+
+StreamMerger::StreamMerger(int width, int height, bool wait_for_events, Utime time_offset)
+    : width_(width), height_(height), wait_for_events_(wait_for_events), offset_(time_offset) {}
+
+void StreamMerger::Clear() {
+  dropped_ += static_cast<std::int64_t>(events_.size());
+  events_.clear();
+  imu_.clear();
+  head_ = 0;
+  has_events_ = has_imu_ = false;
+  watermark_ = std::numeric_limits<Utime>::min();
+}
+
+bool StreamMerger::AddEvents(const EventArray& events, Utime watermark) {
+  bool continued = true;
+  const Utime first = (events.size() > 0 ? events.t.front() : watermark) + offset_;
+  if (has_events_ && watermark_ != kEnd && first < watermark_ - kMaxDisorder) {
+    Clear();
+    ++counters_.resets;
+    continued = false;
+  }
+  if (!has_events_) {
+    has_events_ = true;
+    first_event_ = watermark_ = first;
+  }
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const Utime t = events.t[i] + offset_;
+    // With real time's lead, decisions up to Watermark() are made: what comes now is late for them.
+    if (t < Watermark()) {
+      ++counters_.events_late;
+      continue;
+    }
+    watermark_ = t;
+    if (events.x[i] >= width_ || events.y[i] >= height_) {
+      ++counters_.events_outside;
+      continue;
+    }
+    events_.push_back(t, events.x[i], events.y[i], events.p[i]);
+  }
+  watermark_ = std::max(watermark_, watermark + offset_);
+  return continued;
+}
+
+bool StreamMerger::AddImu(const ImuSample& sample) {
+  if (!sample.gyro.allFinite() || !sample.accel.allFinite()) {
+    ++counters_.imu_invalid;
+    return true;
+  }
+  bool continued = true;
+  if (has_imu_ && sample.t < last_imu_ - kMaxDisorder) {
+    Clear();
+    ++counters_.resets;
+    continued = false;
+  }
+  if (has_imu_ && sample.t <= last_imu_) {
+    ++counters_.imu_late;
+    return continued;
+  }
+  if (imu_.size() >= kMaxImu) imu_.pop_front();
+  imu_.push_back(sample);
+  last_imu_ = sample.t;
+  has_imu_ = true;
+  return continued;
+}
+
+Utime StreamMerger::Watermark() const {
+  if (wait_for_events_ || !has_imu_) return watermark_;
+  return std::max(watermark_, last_imu_ - kImuLead);
+}
+
+const ImuSample* StreamMerger::NextImu() const {
+  return !imu_.empty() && Knows(imu_.front().t) ? &imu_.front() : nullptr;
+}
+
+std::int64_t StreamMerger::PositionAfter(Utime t) const {
+  const auto begin = events_.t.begin() + static_cast<std::ptrdiff_t>(head_);
+  return first() + (std::upper_bound(begin, events_.t.end(), t) - begin);
+}
+
+void StreamMerger::Release(std::int64_t position) {
+  head_ = IndexOf(position);
+  if (head_ < kCompactAt || head_ * 2 < events_.size()) return;
+  EraseFront(&events_, head_);
+  dropped_ += static_cast<std::int64_t>(head_);
+  head_ = 0;
+}
+
+}  // namespace evit
