@@ -92,7 +92,7 @@ void WindowOptimizer::OnKeyframe(const std::uint8_t* data, std::size_t size) {
     return;
   }
   const auto verdict = keyframes_.Look(message.epoch, message.seq);
-  if (settings_.lossless && verdict == SequenceCounter::Verdict::kGap) {
+  if (settings_.lossless && !InOrder(verdict, message)) {
     ++status_.Counter("KEYFRAME.out_of_order");  // frame_builder sends the missing one again
     return;
   }
@@ -104,6 +104,17 @@ void WindowOptimizer::OnKeyframe(const std::uint8_t* data, std::size_t size) {
   }
   Queue(std::move(message));
   ProcessQueue();
+}
+
+// Lossless: whether this is the keyframe to take next. A new sender starts with number 0; where this service itself is
+// the newer one, the sender is further on, and what it sends twice is the oldest it still has no answer for.
+bool WindowOptimizer::InOrder(SequenceCounter::Verdict verdict, const keyframe_t& message) {
+  if (verdict == SequenceCounter::Verdict::kGap) return false;
+  if (verdict != SequenceCounter::Verdict::kNewEpoch || message.seq == 0) return true;
+  const std::pair<std::int64_t, std::int64_t> number(message.epoch, message.seq);
+  if (refused_ == number) return true;
+  refused_ = number;
+  return false;
 }
 
 void WindowOptimizer::Queue(keyframe_t message) {

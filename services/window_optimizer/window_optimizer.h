@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <deque>
+#include <utility>
 #include <vector>
 
 #include "common/bus/bus.h"
@@ -44,6 +45,7 @@ class WindowOptimizer : public Service {
   void OnKeyframe(const std::uint8_t* data, std::size_t size);
   void OnMapPoints(const std::uint8_t* data, std::size_t size);
   void OnImu(const std::uint8_t* data, std::size_t size);
+  bool InOrder(SequenceCounter::Verdict verdict, const keyframe_t& message);
   void Queue(keyframe_t message);
   void ProcessQueue();
   void ProcessOne(const keyframe_t& message);
@@ -76,6 +78,7 @@ class WindowOptimizer : public Service {
   Clock::time_point asked_;
   Clock::time_point first_asked_;
 
+  std::pair<std::int64_t, std::int64_t> refused_{-1, -1};  // epoch and seq of the last keyframe out of order
   tracker_mode_t last_mode_{};
   NavState live_;  // IMU-rate state, real-time mode
   Utime live_time_ = 0;

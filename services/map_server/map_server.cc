@@ -1,0 +1,84 @@
+#include "services/map_server/map_server.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "common/bus/codec.h"
+
+namespace evit {
+namespace {
+
+constexpr int kMaxPoints = 20'000;  // in one answer: 320 kB, well within a receive buffer
+
+VisibilityQuery FromMessage(const map_query_t& m) {
+  VisibilityQuery q;
+  q.T_world_camera = {
+      Eigen::Quaterniond(m.orientation[3], m.orientation[0], m.orientation[1], m.orientation[2]).normalized(),
+      Eigen::Vector3d(m.position)};
+  CameraModelFromName(m.camera.model, &q.camera.model);
+  q.camera.width = m.camera.width;
+  q.camera.height = m.camera.height;
+  q.camera.fx = m.camera.fx;
+  q.camera.fy = m.camera.fy;
+  q.camera.cx = m.camera.cx;
+  q.camera.cy = m.camera.cy;
+  std::copy(std::begin(m.camera.distortion), std::end(m.camera.distortion), q.camera.distortion.begin());
+  q.margin_px = m.margin_px;
+  q.min_depth = m.min_depth;
+  q.max_depth = m.max_depth;
+  q.occlusion = m.occlusion != 0;
+  q.max_points = m.max_points;
+  q.seed = static_cast<std::uint64_t>(m.seed);
+  return q;
+}
+
+}  // namespace
+
+MapServer::MapServer(Bus* bus, const Channels& channels, MapIndex index, const std::string& description)
+    : bus_(bus),
+      channels_(channels),
+      index_(std::move(index)),
+      status_(bus, channels, "map_server", NewEpoch()),
+      queries_(&status_, "MAP_QUERY") {
+  bus_->Subscribe(channels_.map_query, [this](const std::string&, const std::uint8_t* data,
+                                              std::size_t size) { OnQuery(data, size); });
+  status_.Counter("map.points") = static_cast<std::int64_t>(index_.map().points.size());
+  status_.SetState("running", description);
+}
+
+void MapServer::OnQuery(const std::uint8_t* data, std::size_t size) {
+  map_query_t message;
+  Camera::Model model{};
+  if (!DecodeChecked(data, size, &message) || !CameraModelFromName(message.camera.model, &model) ||
+      message.max_points < 1 || message.max_points > kMaxPoints) {
+    queries_.CountInvalid();
+    return;
+  }
+  // A query sent again is answered again: its first answer may have been lost.
+  queries_.Accept(message.epoch, message.seq);
+  const auto begin = std::chrono::steady_clock::now();
+  const VisibilityAnswer visible = index_.Query(FromMessage(message));
+  status_.AddTiming(
+      "query", std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+
+  map_points_t answer{};
+  answer.utime = message.utime;
+  answer.seq = seq_++;
+  answer.epoch = status_.epoch();
+  answer.query_seq = message.seq;
+  answer.query_epoch = message.epoch;
+  answer.map_size = static_cast<std::int64_t>(index_.map().points.size());
+  answer.n_visible = visible.n_visible;
+  answer.n = static_cast<std::int32_t>(visible.ids.size());
+  answer.id = visible.ids;
+  answer.xyz.reserve(visible.ids.size());
+  for (const std::int32_t id : visible.ids) {
+    const Eigen::Vector3f& p = index_.map().points[id];
+    answer.xyz.push_back({p.x(), p.y(), p.z()});
+  }
+  EncodeTo(answer, &buffer_);
+  bus_->Publish(channels_.map_points, buffer_.data(), buffer_.size());
+}
+
+}  // namespace evit
