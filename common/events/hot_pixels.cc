@@ -1,12 +1,13 @@
 #include "common/events/hot_pixels.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 
 namespace evit {
 namespace {
 
-constexpr int kOverNeighbours = 10;  // a hot pixel fires this much more often than its neighbours' median
+constexpr int kOverNeighbours = 10;  // a hot pixel fires this much more often than its neighbours
 
 }  // namespace
 
@@ -49,7 +50,7 @@ void HotPixels::CloseWindow() {
   for (int y = 0; y < height_; ++y) {
     const std::uint16_t* const row = counts_.data() + y * std::size_t(width_);
     for (int x = 0; x < width_; ++x) {
-      if (row[x] > threshold_ && row[x] > kOverNeighbours * (NeighbourMedian(x, y) + 1)) {
+      if (row[x] > threshold_ && row[x] > kOverNeighbours * (NeighbourLevel(x, y) + 1)) {
         pixels_.push_back(y * width_ + x);
       }
     }
@@ -57,7 +58,7 @@ void HotPixels::CloseWindow() {
   std::fill(counts_.begin(), counts_.end(), std::uint16_t{0});
 }
 
-int HotPixels::NeighbourMedian(int x, int y) const {
+int HotPixels::NeighbourLevel(int x, int y) const {
   std::uint16_t around[8];
   int n = 0;
   for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height_ - 1); ++v) {
@@ -65,9 +66,9 @@ int HotPixels::NeighbourMedian(int x, int y) const {
       if (u != x || v != y) around[n++] = counts_[v * std::size_t(width_) + u];
     }
   }
-  if (n == 0) return 0;
-  std::nth_element(around, around + n / 2, around + n);
-  return around[n / 2];
+  if (n < 2) return 0;
+  std::nth_element(around, around + 1, around + n, std::greater<>());
+  return around[1];
 }
 
 }  // namespace evit

@@ -7,8 +7,10 @@
 
 namespace evit {
 
-/// Finds pixels that fire without cause: above a rate, and far above their neighbours. Counts events in
-/// windows of data time (never the host's), so the same events give the same pixels however they arrive.
+/// Finds pixels that fire without cause: above a rate, and far above the second busiest of their eight
+/// neighbours (not the median: pixels of a thin line that shakes have two busy neighbours, and six idle
+/// ones). Counts events in windows of data time (never the host's), so the same events give the same pixels
+/// however they arrive.
 class HotPixels {
  public:
   static constexpr Utime kWindow = 500'000;  // us
@@ -27,7 +29,7 @@ class HotPixels {
 
  private:
   void CloseWindow();
-  int NeighbourMedian(int x, int y) const;
+  int NeighbourLevel(int x, int y) const;
 
   int width_, height_;
   double threshold_;  // events per window

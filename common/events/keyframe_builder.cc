@@ -32,6 +32,7 @@ KeyframeBuilder::KeyframeBuilder(const Rig& rig, const config::Tracker& config, 
       lookahead_(config.surface().kind() == config::Surface::SYMMETRIC
                      ? std::llround(config.surface().lookahead_ms() * 1e3)
                      : 0),
+      truncation_(config.surface().truncation()),
       policy_(config.keyframes(), config.surface()),
       merger_(rig.camera.width, rig.camera.height, lossless, rig.camera_time_offset),
       surface_(rig.camera.width, rig.camera.height),
@@ -77,7 +78,7 @@ void KeyframeBuilder::LimitMemory() {
 std::optional<Keyframe> KeyframeBuilder::Next() {
   do {
     // Drawn as soon as it can be, so that feedback on it can come before the next is decided.
-    if (!pending_.empty() && merger_.Knows(pending_.front().keyframe.utime + lookahead_)) {
+    if (!pending_.empty() && merger_.Knows(pending_.front().keyframe.utime + pending_.front().lookahead)) {
       Pending pending = std::move(pending_.front());
       pending_.pop_front();
       return Draw(std::move(pending));
@@ -161,6 +162,8 @@ void KeyframeBuilder::Push(Utime stamp, const ImuSample& sample, const TrackerFe
     k.imu = std::move(imu_);
     k.imu_gap = std::max(gap_, sample.t - last_raw_.t);
   }
+  // Later events than this would not show: the faster the motion, the shorter the wait.
+  pending.lookahead = std::min(lookahead_, static_cast<Utime>(VisibleUs(k.decay_us, truncation_)));
   pending.bias = feedback.bias;
   pending_.push_back(std::move(pending));
 
@@ -193,7 +196,7 @@ Keyframe KeyframeBuilder::Draw(Pending pending) {
   view.decay_us = k.decay_us;
   view.after = &merger_.events();
   view.begin = merger_.IndexOf(merger_.first());
-  view.end = merger_.IndexOf(merger_.PositionAfter(k.utime + lookahead_));
+  view.end = merger_.IndexOf(merger_.PositionAfter(k.utime + pending.lookahead));
   view.ignored = &hot_pixels_.pixels();
   k.surfaces = renderer_.Render(surface_, view);
   k.render_ms = watch.Lap();

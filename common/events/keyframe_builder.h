@@ -71,6 +71,7 @@ class KeyframeBuilder {
   struct Pending {  // decided, not drawn yet
     Keyframe keyframe;
     std::int64_t position;  // events before it belong to the surface
+    Utime lookahead;
     ImuBias bias;
   };
   bool Decide();
@@ -85,7 +86,8 @@ class KeyframeBuilder {
 
   Rig rig_;
   bool lossless_;
-  Utime lookahead_;
+  Utime lookahead_;  // at most
+  double truncation_;
   KeyframePolicy policy_;
   StreamMerger merger_;
   ActiveEventSurface surface_;

@@ -14,6 +14,11 @@ constexpr double kSupportDecays = 2;  // a neighbour supports a pixel if it fire
 
 }  // namespace
 
+double VisibleUs(double decay_us, double truncation) {
+  // Below half a grey level T rounds to 0 in any case.
+  return decay_us * std::log(255 / std::clamp(truncation, 0.5, 255.0));
+}
+
 SurfaceRenderer::SurfaceRenderer(int width, int height, const config::Surface& settings)
     : width_(width),
       height_(height),
@@ -79,9 +84,7 @@ void SurfaceRenderer::FindNear(const std::vector<std::int32_t>& distances, doubl
 }
 
 void SurfaceRenderer::MakeTable(double decay_us) {
-  // Beyond this T is below the truncation, or rounds to 0.
-  const double last = decay_us * std::log(255 / std::max(truncation_, 0.5));
-  max_distance_ = static_cast<std::int32_t>(std::clamp(std::floor(last), 0.0, 5e8));
+  max_distance_ = static_cast<std::int32_t>(std::min(VisibleUs(decay_us, truncation_), 5e8));
   shift_ = 0;
   while ((max_distance_ >> shift_) >= kTableSize) ++shift_;
   table_.resize((max_distance_ >> shift_) + 1);

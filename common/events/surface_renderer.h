@@ -10,6 +10,10 @@
 
 namespace evit {
 
+/// us: an event further away in time than this leaves nothing on a surface with this decay and truncation
+/// (grey levels).
+double VisibleUs(double decay_us, double truncation);
+
 /// Draws negated time surfaces (paper Sec. III-B.2).
 ///
 /// T = 255 exp(-|dt| / decay) of the event nearest in time to the instant drawn, 0 below the truncation,
