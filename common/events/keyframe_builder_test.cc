@@ -1,0 +1,224 @@
+#include "common/events/keyframe_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "common/events/test_streams.h"
+
+namespace evit {
+namespace {
+
+using test::ImuStream;
+using test::RandomStream;
+using test::Slice;
+using test::SmallConfig;
+using test::SmallRig;
+using Mode = TrackerFeedback::Mode;
+
+TrackerFeedback Tracking(double speed, double bias = 0) {
+  TrackerFeedback f;
+  f.mode = Mode::kTracking;
+  f.image_speed = speed;
+  f.bias.gyro.setConstant(bias);
+  return f;
+}
+
+/// A tracker that bootstraps for 5 keyframes, then tracks with changing figures, and is lost for a while.
+TrackerFeedback Script(const Keyframe& k) {
+  if (k.seq < 5) return {};
+  TrackerFeedback f = Tracking(200 + 50.0 * (k.seq % 7), 1e-3 * (k.n_events % 10));
+  if (k.seq >= 20 && k.seq < 24) f.mode = Mode::kLost;
+  return f;
+}
+
+/// Feeds both streams cut and interleaved at random; feedback comes with a random delay.
+std::vector<Keyframe> BuildAll(const EventArray& events, const std::vector<ImuSample>& imu, unsigned seed,
+                               std::size_t max_packet) {
+  KeyframeBuilder builder(SmallRig(), SmallConfig(), true);
+  std::mt19937 random(seed);
+  std::vector<Keyframe> out;
+  std::size_t e = 0, m = 0, answered = 0;
+  const auto take = [&] {
+    while (auto k = builder.Next()) out.push_back(std::move(*k));
+    if (random() % 2 == 0) return;
+    for (; answered < out.size(); ++answered)
+      builder.SetFeedbackFor(out[answered].seq, Script(out[answered]));
+    while (auto k = builder.Next()) out.push_back(std::move(*k));
+  };
+  while (e < events.size() || m < imu.size()) {
+    if (m >= imu.size() || (e < events.size() && random() % 2 == 0)) {
+      const std::size_t end = std::min(e + 1 + random() % max_packet, events.size());
+      builder.AddEvents(Slice(events, e, end), events.t[end - 1]);
+      e = end;
+      if (random() % 4 == 0 && e < events.size()) builder.AddEvents({}, events.t[e]);  // a watermark
+    } else {
+      for (std::size_t n = 1 + random() % 8; n > 0 && m < imu.size(); --n) builder.AddImu(imu[m++]);
+    }
+    take();
+  }
+  builder.Flush();
+  for (int i = 0; i < 1000; ++i) take();
+  EXPECT_EQ(builder.counters().events_late, 0);
+  return out;
+}
+
+void ExpectSame(const std::vector<Keyframe>& a, const std::vector<Keyframe>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a[i].utime, b[i].utime) << i;
+    ASSERT_EQ(a[i].seq, b[i].seq);
+    ASSERT_EQ(a[i].n_events, b[i].n_events);
+    ASSERT_EQ(a[i].decay_us, b[i].decay_us);
+    ASSERT_EQ(a[i].surfaces, b[i].surfaces);
+    ASSERT_EQ(a[i].imu.size(), b[i].imu.size());
+    ASSERT_EQ(a[i].preintegration.delta().alpha, b[i].preintegration.delta().alpha);
+    ASSERT_EQ(a[i].preintegration.covariance(), b[i].preintegration.covariance());
+  }
+}
+
+TEST(KeyframeBuilder, KeyframesDoNotDependOnPacketsAndInterleaving) {
+  const EventArray events = RandomStream(1'000'000, 2'000'000, 60'000, 3);
+  const std::vector<ImuSample> imu = ImuStream(1'001'000, 1'995'000);
+  const std::vector<Keyframe> whole = BuildAll(events, imu, 1, events.size());
+  ASSERT_GT(whole.size(), 30u);
+  EXPECT_LT(whole.size(), 60u);
+  ExpectSame(whole, BuildAll(events, imu, 2, 1));
+  ExpectSame(whole, BuildAll(events, imu, 3, 50));
+  ExpectSame(whole, BuildAll(events, imu, 4, 3'000));
+}
+
+TEST(KeyframeBuilder, IntervalsJoinAndCarryTheirImuSamples) {
+  const std::vector<Keyframe> all =
+      BuildAll(RandomStream(1'000'000, 2'000'000, 60'000, 3), ImuStream(1'001'000, 1'995'000), 1, 500);
+  int high_rate = 0, adaptive = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Keyframe& k = all[i];
+    EXPECT_EQ(k.seq, static_cast<std::int64_t>(i));
+    (k.high_rate ? high_rate : adaptive) += 1;
+    if (i == 0) {
+      EXPECT_EQ(k.previous_utime, k.utime);
+      EXPECT_TRUE(k.imu.empty());
+      continue;
+    }
+    EXPECT_EQ(k.previous_utime, all[i - 1].utime);
+    ASSERT_GE(k.imu.size(), 2u);
+    EXPECT_EQ(k.imu.front().t, k.previous_utime);
+    EXPECT_EQ(k.imu.back().t, k.utime);
+    EXPECT_EQ(k.preintegration.end(), k.utime);
+    EXPECT_EQ(k.imu_gap, 5'000);
+    for (const ImuSample& s : k.imu) {  // the stream is smooth: interpolated samples are close to the truth
+      EXPECT_NEAR(s.gyro.x(), 0.3 * std::sin(5 * ToSeconds(s.t)), 1e-3);
+    }
+    if (k.high_rate) {
+      EXPECT_EQ(k.utime - k.previous_utime, 7'300);
+    } else {
+      EXPECT_EQ((k.utime - 1'001'000) % 5'000, 0);
+      EXPECT_TRUE(k.n_events >= 1500 || k.utime - k.previous_utime >= 60'000);
+    }
+  }
+  EXPECT_EQ(high_rate, 7 + 4);  // feedback acts two keyframes later
+  EXPECT_GT(adaptive, 20);
+  EXPECT_EQ(all[10].decay_us, 3e6 / (200 + 50.0 * (8 % 7)));  // tail / speed after keyframe 8
+  EXPECT_EQ(all[10].preintegration.bias().gyro.x(), 1e-3 * (all[8].n_events % 10));
+}
+
+TEST(KeyframeBuilder, WaitsForTheFeedbackOfTheKeyframeBeforeTheLast) {
+  KeyframeBuilder builder(SmallRig(), SmallConfig(), true);
+  const EventArray events = RandomStream(0, 300'000, 60'000, 3);
+  builder.AddEvents(events, events.t.back());
+  for (const ImuSample& s : ImuStream(0, 290'000)) builder.AddImu(s);
+  ASSERT_TRUE(builder.Next() && builder.Next());
+  EXPECT_FALSE(builder.Next());
+  EXPECT_EQ(builder.awaited_feedback(), 0);
+  builder.SetFeedbackFor(1, Tracking(100));  // not the one
+  EXPECT_FALSE(builder.Next());
+  builder.SetFeedbackFor(0, {});
+  EXPECT_TRUE(builder.Next());
+  EXPECT_TRUE(builder.Next());  // by the feedback of 1
+  EXPECT_FALSE(builder.Next());
+  EXPECT_EQ(builder.awaited_feedback(), 2);
+  EXPECT_EQ(builder.next_seq(), 4);
+}
+
+TEST(KeyframeBuilder, BadDataIsCountedAndDropped) {
+  const EventArray events = RandomStream(1'000'000, 1'500'000, 40'000, 3);
+  const std::vector<ImuSample> imu = ImuStream(1'000'000, 1'495'000);
+  const auto run = [&](bool bad) {
+    KeyframeBuilder builder(SmallRig(), SmallConfig(), false);
+    std::vector<Keyframe> out;
+    std::size_t m = 0;
+    for (std::size_t e = 0; e < events.size(); e += 200) {
+      builder.AddEvents(Slice(events, e, e + 200), events.t[e + 199]);
+      if (bad) {
+        EventArray wrong;
+        wrong.push_back(events.t[e + 199] - 500'000, 1, 1, 1);
+        builder.AddEvents(wrong, wrong.t[0]);
+        wrong = {};
+        wrong.push_back(events.t[e + 199], test::kWidth, 1, 1);
+        builder.AddEvents(wrong, wrong.t[0]);
+      }
+      for (; m < imu.size() && imu[m].t <= events.t[e + 199]; ++m) {
+        builder.AddImu(imu[m]);
+        if (!bad) continue;
+        ImuSample wrong = imu[m];
+        builder.AddImu(wrong);
+        wrong.t -= 2'000;
+        builder.AddImu(wrong);
+        wrong.t += 4'000;
+        wrong.accel.y() = std::numeric_limits<double>::quiet_NaN();
+        builder.AddImu(wrong);
+      }
+      while (auto k = builder.Next()) {
+        builder.SetFeedbackFor(k->seq, Tracking(150));
+        out.push_back(std::move(*k));
+      }
+    }
+    EXPECT_EQ(builder.counters().events_late, bad ? 100 : 0);
+    EXPECT_EQ(builder.counters().events_outside, bad ? 100 : 0);
+    EXPECT_EQ(builder.counters().imu_late, bad ? 2 * static_cast<std::int64_t>(m) : 0);
+    EXPECT_EQ(builder.counters().imu_invalid, bad ? static_cast<std::int64_t>(m) : 0);
+    return out;
+  };
+  const std::vector<Keyframe> good = run(false);
+  ASSERT_GT(good.size(), 8u);
+  ExpectSame(good, run(true));
+}
+
+TEST(KeyframeBuilder, ClockSetBackBeginsAnew) {
+  KeyframeBuilder builder(SmallRig(), SmallConfig(), false);
+  builder.SetFeedbackFor(-1, Tracking(150));
+  std::int64_t seq = -1;
+  for (const Utime origin : {100'000'000, 5'000'000}) {
+    const EventArray events = RandomStream(origin, origin + 300'000, 60'000, 3);
+    for (const ImuSample& s : ImuStream(origin, origin + 20'000)) builder.AddImu(s);
+    builder.AddEvents(events, events.t.back());
+    for (const ImuSample& s : ImuStream(origin + 25'000, origin + 295'000)) builder.AddImu(s);
+    bool first = true;
+    int n = 0;
+    for (; auto k = builder.Next(); ++n) {
+      EXPECT_EQ(k->seq, ++seq);
+      EXPECT_GE(k->utime, origin);
+      EXPECT_LE(k->utime, origin + 300'000);
+      EXPECT_EQ(k->previous_utime == k->utime, first);
+      first = false;
+    }
+    EXPECT_GT(n, 5);
+  }
+  EXPECT_GE(builder.counters().resets, 1);
+}
+
+TEST(KeyframeBuilder, RealTimeGoesOnWithoutEventsThatAreLate) {
+  KeyframeBuilder builder(SmallRig(), SmallConfig(), false);
+  const EventArray events = RandomStream(0, 100'000, 40'000, 3);
+  builder.AddEvents(events, events.t.back());
+  int n = 0;
+  for (const ImuSample& s : ImuStream(0, 500'000)) {
+    builder.AddImu(s);
+    while (builder.Next()) ++n;  // high rate: no feedback
+  }
+  EXPECT_NEAR(n, 440 / 7.3, 4);  // up to 50 ms (and the look-ahead) before the newest IMU sample
+}
+
+}  // namespace
+}  // namespace evit
