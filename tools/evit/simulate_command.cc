@@ -137,6 +137,7 @@ void AddSimulateCommand(CLI::App* app) {
   add("Map", "--map-outliers", &s.map.outlier_share, "Share of outliers");
   add("Map", "--map-outlier-distance", &s.map.outlier_m, "m");
   add("Map", "--map-voxel", &s.map.voxel_m, "m");
+  add("Map", "--map-max-points", &s.map.max_points, "Points kept at most");
 
   command->callback([options, app] {
     // The words as typed are not kept by the parser; what it read is.

@@ -126,6 +126,7 @@ PointMap MakeEdgeMap(const Renderer& renderer, const Rig& rig, const PoseSpline&
   for (std::size_t i = map.points.size(); i > 1; --i) {
     std::swap(map.points[i - 1], map.points[random.Next() % i]);
   }
+  if (map.points.size() > settings.max_points) map.points.resize(settings.max_points);
   return map;
 }
 

@@ -105,9 +105,14 @@ void Renderer::DrawDepth(const PlacedSurface& placed, View* view) const {
 
 void Renderer::Shade(const std::vector<PlacedSurface>& placed, View* view) const {
   const std::size_t n = view->image.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    if (view->surface[i] < 0) continue;
-    view->image[i] = placed[view->surface[i]].Shade(ray_x_[i], ray_y_[i], view->inverse_depth[i]);
+  const std::int32_t* id = view->surface.data();
+  for (std::size_t begin = 0, end = 0; begin < n; begin = end) {
+    while (end < n && id[end] == id[begin]) ++end;
+    if (id[begin] < 0) continue;
+    const PlacedSurface surface = placed[id[begin]];  // a copy nothing else can change: stays in registers
+    for (std::size_t i = begin; i < end; ++i) {
+      view->image[i] = surface.Shade(ray_x_[i], ray_y_[i], view->inverse_depth[i]);
+    }
   }
 }
 

@@ -89,7 +89,8 @@ class RoomBuilder {
     const int w = std::max(2, static_cast<int>(std::lround(width / texel)));
     const int h = std::max(2, static_cast<int>(std::lround(height / texel)));
     scene_.textures.emplace_back(PaintPicture(paint, w, h, texel, base, &random_),
-                                 static_cast<float>(width / w));
+                                 static_cast<float>(width / w),
+                                 paint == Paint::kPlain || paint == Paint::kGradient);
     return &scene_.textures.back();
   }
 

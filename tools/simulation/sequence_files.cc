@@ -47,7 +47,7 @@ StagedFolder::StagedFolder(const std::string& final_folder) : final_(fs::absolut
   if (fs::exists(final_, error) && !fs::is_directory(final_, error)) {
     throw std::runtime_error("cannot write to " + final_.string() + ": it is a file, a folder is needed");
   }
-  fs::create_directories(final_, error);
+  made_ = fs::create_directories(final_, error);
   staging_ = final_ / ".incomplete";
   if (!error) fs::remove_all(staging_, error);
   if (!error) fs::create_directory(staging_, error);
@@ -57,7 +57,7 @@ StagedFolder::StagedFolder(const std::string& final_folder) : final_(fs::absolut
 StagedFolder::~StagedFolder() {
   std::error_code ignored;
   fs::remove_all(staging_, ignored);
-  fs::remove(final_, ignored);  // only if empty: it was made for nothing
+  if (made_) fs::remove(final_, ignored);  // does so only if empty: made for nothing
 }
 
 void StagedFolder::Commit() {

@@ -23,6 +23,7 @@ class StagedFolder {
 
  private:
   std::filesystem::path final_, staging_;
+  bool made_ = false;  // the final folder
 };
 
 /// All throw std::runtime_error naming the file.

@@ -5,7 +5,7 @@
 
 namespace evit {
 
-Texture::Texture(const cv::Mat& picture, float texel_size) : texel_size_(texel_size) {
+Texture::Texture(const cv::Mat& picture, float texel_size, bool smooth) : texel_size_(texel_size) {
   cv::Mat image = picture;
   while (true) {
     Level level;
@@ -17,7 +17,7 @@ Texture::Texture(const cv::Mat& picture, float texel_size) : texel_size_(texel_s
       level.data.insert(level.data.end(), image.ptr<float>(y), image.ptr<float>(y) + image.cols);
     }
     levels_.push_back(std::move(level));
-    if (image.cols == 1 && image.rows == 1) break;
+    if (smooth || (image.cols == 1 && image.rows == 1)) break;
     cv::Mat half;
     cv::resize(image, half, {std::max(1, image.cols / 2), std::max(1, image.rows / 2)}, 0, 0, cv::INTER_AREA);
     image = half;

@@ -10,8 +10,9 @@ namespace evit {
 /// with the border's value.
 class Texture {
  public:
-  /// `texel_size`: metres per texel of level 0, the same in both directions.
-  Texture(const cv::Mat& picture, float texel_size);
+  /// `texel_size`: metres per texel of level 0, the same in both directions. `smooth`: a picture without
+  /// detail, which needs no further levels.
+  Texture(const cv::Mat& picture, float texel_size, bool smooth);
 
   float texel_size() const { return texel_size_; }
   int width() const { return levels_[0].width; }
@@ -22,9 +23,12 @@ class Texture {
     const float top = static_cast<float>(levels_.size() - 1);
     lod = lod < 0 ? 0 : (lod > top ? top : lod);
     const int level = static_cast<int>(lod);
-    const float rest = lod - static_cast<float>(level);
+    // Blended over the middle half between two levels: continuous, and half of the pixels read one level
+    // only.
+    const float rest = 2 * (lod - static_cast<float>(level)) - 0.5F;
+    if (rest <= 0) return SampleLevel(level, s, t);
+    if (rest >= 1) return SampleLevel(level + 1, s, t);
     const float a = SampleLevel(level, s, t);
-    if (rest < 1e-3F || level + 1 >= static_cast<int>(levels_.size())) return a;
     return a + rest * (SampleLevel(level + 1, s, t) - a);
   }
 
