@@ -1,0 +1,194 @@
+#include "services/frame_builder/frame_builder.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/bus/codec.h"
+#include "common/events/wire/event_wire.h"
+#include "services/frame_builder/keyframe_message.h"
+
+namespace evit {
+namespace {
+
+constexpr std::size_t kRecent = 32;                  // keyframes
+constexpr auto kPatience = std::chrono::seconds(2);  // before the missing answer is complained of
+
+}  // namespace
+
+FrameBuilder::FrameBuilder(Bus* bus, const Channels& channels, const Settings& settings)
+    : bus_(bus),
+      channels_(channels),
+      settings_(settings),
+      status_(bus, channels, "frame_builder", NewEpoch()),
+      modes_(&status_, "TRACKER_MODE"),
+      inbox_(&status_, settings.lossless),
+      builder_(settings.rig, settings.tracker, settings.lossless) {
+  const auto on = [&](const std::string& channel, auto method) {
+    bus_->Subscribe(channel, [this, method](const std::string&, const std::uint8_t* data, std::size_t size) {
+      (this->*method)(data, size);
+    });
+  };
+  on(channels_.events, &FrameBuilder::OnData<event_packet_t>);
+  on(channels_.imu, &FrameBuilder::OnData<imu_batch_t>);
+  on(channels_.tracker_mode, &FrameBuilder::OnMode);
+  on(channels_.stream_end, &FrameBuilder::OnEnd);
+  if (settings_.lossless) credit_.emplace(bus_, channels_, "frame_builder", status_.epoch());
+  status_.Counter("last_keyframe_seq") = -1;
+  status_.SetState("waiting", "waiting for events and IMU samples");
+}
+
+template <typename Message>
+void FrameBuilder::OnData(const std::uint8_t* data, std::size_t size) {
+  Message message;
+  if (!DecodeChecked(data, size, &message)) {
+    std::is_same_v<Message, event_packet_t> ? inbox_.CountInvalidEvents() : inbox_.CountInvalidImu();
+    return;
+  }
+  const StreamInbox::Verdict verdict = inbox_.Put(std::move(message), size);
+  if (verdict == StreamInbox::Verdict::kRefused) {
+    if (credit_) credit_->Ask();  // the sender should know where we are
+    return;
+  }
+  if (verdict == StreamInbox::Verdict::kNewStream) {
+    builder_.Reset();
+    flushed_ = false;
+  }
+  Work();
+}
+
+void FrameBuilder::Feed(const StreamInbox::Item& item) {
+  if (const auto* packet = std::get_if<event_packet_t>(&item.message)) {
+    events_.clear();
+    AppendEvents(*packet, &events_);
+    builder_.AddEvents(events_, packet->n > 0 ? events_.t.back() : packet->utime);
+  } else {
+    for (const ImuSample& s : ToSamples(std::get<imu_batch_t>(item.message))) builder_.AddImu(s);
+  }
+  if (credit_) {
+    credit_->Consumed(inbox_.epoch(), inbox_.taken_events(), inbox_.taken_imu(), item.bytes);
+  }
+}
+
+void FrameBuilder::Work() {
+  while (true) {
+    while (auto keyframe = builder_.Next()) Send(std::move(*keyframe));
+    if (builder_.awaited_feedback() >= 0) break;  // what is in the inbox waits, and with it the sender
+    if (const auto item = inbox_.Take()) {
+      Feed(*item);
+    } else if (!flushed_ && inbox_.ended()) {
+      builder_.Flush();
+      flushed_ = true;
+    } else {
+      break;
+    }
+  }
+  ReportState();
+}
+
+void FrameBuilder::ReportState() {
+  const std::int64_t awaited = builder_.awaited_feedback();
+  if (awaited >= 0 && Clock::now() - moved_ > kPatience) {
+    status_.SetState("waiting", "window_optimizer does not answer keyframe " + std::to_string(awaited) +
+                                    ": is it running, --lossless, on the same URL and prefix?");
+  } else if (flushed_ && awaited < 0) {
+    if (status_.state() == "drained") return;
+    ReportCounters();
+    status_.SetState("drained", "the streams have ended; last keyframe " + std::to_string(last_sent_));
+  } else if (inbox_.epoch() != -1 && status_.state() != "running") {
+    status_.SetState("running", "making keyframes");
+  }
+}
+
+void FrameBuilder::Send(Keyframe keyframe) {
+  status_.AddTiming("update", keyframe.update_ms);
+  status_.AddTiming("render", keyframe.render_ms);
+  status_.AddTiming("preintegrate", keyframe.preintegrate_ms);
+  const auto begin = Clock::now();
+  keyframe_t message = ToMessage(std::move(keyframe));
+  message.epoch = status_.epoch();
+  Sent sent{message.seq, {}};
+  if (recent_.size() >= kRecent) {
+    sent.bytes = std::move(recent_.front().bytes);  // its memory
+    recent_.pop_front();
+  }
+  EncodeTo(message, &sent.bytes);
+  moved_ = Clock::now();
+  status_.AddTiming("encode", std::chrono::duration<double, std::milli>(moved_ - begin).count());
+  bus_->Publish(channels_.keyframe, sent.bytes.data(), sent.bytes.size());
+  last_sent_ = sent.seq;
+  recent_.push_back(std::move(sent));
+  ++status_.Counter("KEYFRAME.sent");
+  status_.Counter("last_keyframe_seq") = last_sent_;
+}
+
+void FrameBuilder::OnMode(const std::uint8_t* data, std::size_t size) {
+  tracker_mode_t message;
+  if (!DecodeChecked(data, size, &message)) {
+    modes_.CountInvalid();
+    return;
+  }
+  if (modes_.Accept(message.epoch, message.seq) == SequenceCounter::Verdict::kOld) return;
+  // Before its first keyframe the tracker speaks of none, after our restart of an earlier run's.
+  const bool ours = message.keyframe_epoch == status_.epoch() && message.keyframe_seq >= 0 &&
+                    message.keyframe_seq <= last_sent_;
+  if (!ours) {
+    ++status_.Counter("TRACKER_MODE.not_ours");
+    if (settings_.lossless || message.keyframe_seq < 0) return;
+    builder_.SetFeedbackFor(-1, ToFeedback(message));
+    return;
+  }
+  if (message.keyframe_seq > last_answered_) {
+    last_answered_ = message.keyframe_seq;
+    moved_ = Clock::now();
+  }
+  while (settings_.lossless && !recent_.empty() && recent_.front().seq <= last_answered_) recent_.pop_front();
+  builder_.SetFeedbackFor(message.keyframe_seq, ToFeedback(message));
+  if (builder_.awaited_feedback() >= 0) Work();
+}
+
+void FrameBuilder::OnEnd(const std::uint8_t* data, std::size_t size) {
+  stream_end_t message;
+  if (!DecodeChecked(data, size, &message)) {
+    ++status_.Counter("STREAM_END.invalid");
+    return;
+  }
+  inbox_.End(message);
+  Work();
+}
+
+void FrameBuilder::SendAgain() {
+  if (!settings_.lossless || recent_.empty() || Clock::now() - sent_again_ < settings_.send_again ||
+      Clock::now() - moved_ < settings_.send_again) {
+    return;
+  }
+  for (const Sent& sent : recent_) {  // the optimiser takes them in exact order only
+    bus_->Publish(channels_.keyframe, sent.bytes.data(), sent.bytes.size());
+    ++status_.Counter("KEYFRAME.sent_again");
+  }
+  sent_again_ = Clock::now();
+}
+
+void FrameBuilder::ReportCounters() {
+  const StreamMerger::Counters& c = builder_.counters();
+  status_.Counter("events.outside") = c.events_outside;
+  status_.Counter("events.late") = c.events_late;
+  status_.Counter("events.overrun") = builder_.events_overrun();
+  status_.Counter("imu.late") = c.imu_late;
+  status_.Counter("imu.invalid") = c.imu_invalid;
+  status_.Counter("clock_resets") = c.resets;
+}
+
+void FrameBuilder::Tick() {
+  SendAgain();
+  ReportState();
+  if (credit_) credit_->Tick();
+  ReportCounters();
+  status_.Tick();
+}
+
+void FrameBuilder::Stop() {
+  ReportCounters();
+  status_.SetState("finished", "stopped");
+}
+
+}  // namespace evit

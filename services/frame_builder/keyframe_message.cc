@@ -1,0 +1,79 @@
+#include "services/frame_builder/keyframe_message.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace evit {
+namespace {
+
+template <typename Matrix, typename Rows>
+void CopyMatrix(const Matrix& from, Rows& to) {
+  for (Eigen::Index r = 0; r < from.rows(); ++r) {
+    for (Eigen::Index c = 0; c < from.cols(); ++c) to[r][c] = from(r, c);
+  }
+}
+
+preintegration_t ToMessage(const Preintegration& p, const Keyframe& keyframe) {
+  preintegration_t m{};
+  m.begin_utime = keyframe.previous_utime;
+  m.end_utime = keyframe.utime;
+  std::copy_n(p.bias().gyro.data(), 3, m.gyro_bias);
+  std::copy_n(p.bias().accel.data(), 3, m.accel_bias);
+  std::copy_n(p.delta().alpha.data(), 3, m.alpha);
+  std::copy_n(p.delta().beta.data(), 3, m.beta);
+  std::copy_n(p.delta().gamma.coeffs().data(), 4, m.gamma);  // x y z w
+  CopyMatrix(p.covariance(), m.covariance);
+  CopyMatrix(p.d_gyro_bias(), m.d_gyro_bias);
+  CopyMatrix(p.d_accel_bias(), m.d_accel_bias);
+  return m;
+}
+
+}  // namespace
+
+keyframe_t ToMessage(Keyframe k) {
+  keyframe_t m{};
+  m.utime = k.utime;
+  m.seq = k.seq;
+  m.previous_utime = k.previous_utime;
+  m.high_rate = k.high_rate ? 1 : 0;
+  m.n_events =
+      static_cast<std::int32_t>(std::min<std::int64_t>(k.n_events, std::numeric_limits<std::int32_t>::max()));
+  m.decay_us = k.decay_us;
+  m.width = k.width;
+  m.height = k.height;
+  m.n_surfaces = static_cast<std::int32_t>(k.surfaces.size());
+  m.surface_size = k.width * k.height;
+  m.imu = ToMessage(k.preintegration, k);
+  m.surface = std::move(k.surfaces);
+  m.n_imu = static_cast<std::int32_t>(k.imu.size());
+  for (const ImuSample& s : k.imu) {
+    m.imu_utime.push_back(s.t);
+    m.gyro.push_back({s.gyro.x(), s.gyro.y(), s.gyro.z()});
+    m.accel.push_back({s.accel.x(), s.accel.y(), s.accel.z()});
+  }
+  m.imu_gap_us =
+      static_cast<std::int32_t>(std::min<Utime>(k.imu_gap, std::numeric_limits<std::int32_t>::max()));
+  return m;
+}
+
+TrackerFeedback ToFeedback(const tracker_mode_t& m) {
+  TrackerFeedback f;
+  f.mode = static_cast<TrackerFeedback::Mode>(m.mode);
+  f.bias.gyro = Eigen::Vector3d(m.gyro_bias);
+  f.bias.accel = Eigen::Vector3d(m.accel_bias);
+  f.image_speed = m.image_speed;
+  return f;
+}
+
+std::vector<ImuSample> ToSamples(const imu_batch_t& m) {
+  std::vector<ImuSample> samples;
+  samples.reserve(m.n);
+  for (int i = 0; i < m.n; ++i) {
+    samples.push_back(
+        {m.sample_utime[i], Eigen::Vector3d(m.gyro[i].data()), Eigen::Vector3d(m.accel[i].data())});
+  }
+  return samples;
+}
+
+}  // namespace evit

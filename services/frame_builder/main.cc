@@ -1,0 +1,34 @@
+#include <CLI/CLI.hpp>
+#include <opencv2/core/utility.hpp>
+
+#include "common/bus/lcm_bus.h"
+#include "common/config/config.h"
+#include "services/frame_builder/frame_builder.h"
+
+namespace {
+
+int Main(int argc, char** argv) {
+  CLI::App app{"Makes keyframes (time surfaces and pre-integrated IMU) from events and IMU (LCM service)."};
+  std::string rig, config;
+  evit::ServiceOptions options;
+  app.add_option("--rig", rig, "Calibration of camera and IMU (text protobuf)")->required();
+  app.add_option("--config", config, "Tracker settings (text protobuf)")->required();
+  evit::AddServiceOptions(&app, &options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
+  }
+  cv::setNumThreads(1);  // an image takes a fraction of a millisecond: waking threads costs more
+  evit::FrameBuilder::Settings settings;
+  settings.rig = evit::LoadRig(rig);
+  settings.tracker = evit::LoadTracker(config);
+  settings.lossless = options.lossless;
+  const auto bus = evit::OpenLcmBus(evit::ResolveLcmUrl(options.lcm_url));
+  evit::FrameBuilder service(bus.get(), evit::Channels(options.prefix), settings);
+  return evit::RunService(&service, bus.get());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return evit::GuardedMain("frame_builder", Main, argc, argv); }
