@@ -55,6 +55,48 @@ std::array<Eigen::Vector3d, 4> FrustumNormals(const Camera& camera, double margi
           Eigen::Vector3d(0, 1, -top).normalized(), Eigen::Vector3d(0, -1, bottom).normalized()};
 }
 
+// A seeded random subset of query.max_points, spread over the image: tiles take turns giving a point, each in
+// a random order of its own, so that a densely mapped spot does not eat the budget.
+std::vector<std::int32_t> SpreadSubset(const std::vector<ProjectedPoint>& seen,
+                                       const VisibilityQuery& query) {
+  struct Ranked {
+    std::int32_t tile;
+    std::uint64_t order;
+    std::int32_t id;
+  };
+  const int columns = static_cast<int>((query.camera.width + 2 * query.margin_px) / kTile) + 2;
+  const std::uint64_t base = Mix(query.seed);
+  std::vector<Ranked> ranked;
+  ranked.reserve(seen.size());
+  for (const ProjectedPoint& p : seen) {
+    const int column = static_cast<int>((p.pixel.x() + query.margin_px) / kTile);
+    const int row = static_cast<int>((p.pixel.y() + query.margin_px) / kTile);
+    ranked.push_back({row * columns + column, Mix(base ^ static_cast<std::uint64_t>(p.id)), p.id});
+  }
+  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
+    return std::tie(a.tile, a.order, a.id) < std::tie(b.tile, b.order, b.id);
+  });
+  // Turn of each point within its tile, and how many points each turn takes.
+  std::vector<std::int32_t> turn(ranked.size()), per_turn;
+  for (std::size_t k = 0; k < ranked.size(); ++k) {
+    turn[k] = k > 0 && ranked[k].tile == ranked[k - 1].tile ? turn[k - 1] + 1 : 0;
+    if (static_cast<std::size_t>(turn[k]) >= per_turn.size()) per_turn.push_back(0);
+    ++per_turn[turn[k]];
+  }
+  std::int32_t last = 0, left = query.max_points;  // `left` points of turn `last` still fit
+  while (left >= per_turn[last]) left -= per_turn[last++];
+  std::vector<std::int32_t> ids;
+  std::vector<std::pair<std::uint64_t, std::int32_t>> remainder;
+  ids.reserve(query.max_points);
+  for (std::size_t k = 0; k < ranked.size(); ++k) {
+    if (turn[k] < last) ids.push_back(ranked[k].id);
+    if (turn[k] == last) remainder.emplace_back(ranked[k].order, ranked[k].id);
+  }
+  std::nth_element(remainder.begin(), remainder.begin() + left, remainder.end());
+  for (std::int32_t k = 0; k < left; ++k) ids.push_back(remainder[k].second);
+  return ids;
+}
+
 }  // namespace
 
 struct MapIndex::Impl {
@@ -124,34 +166,9 @@ VisibilityAnswer MapIndex::Query(const VisibilityQuery& query) const {
   VisibilityAnswer answer;
   answer.n_visible = static_cast<std::int32_t>(seen.size());
   if (query.max_points > 0 && seen.size() > static_cast<std::size_t>(query.max_points)) {
-    // Tiles take turns: the k-th point (in a seeded random order) of every tile comes before any (k+1)-th.
-    struct Ranked {
-      std::int32_t turn;
-      std::uint64_t order;
-      std::int32_t id;
-    };
-    const int columns = static_cast<int>((query.camera.width + 2 * query.margin_px) / kTile) + 2;
-    const int rows = static_cast<int>((query.camera.height + 2 * query.margin_px) / kTile) + 2;
-    std::vector<std::pair<std::uint64_t, const ProjectedPoint*>> shuffled;
-    shuffled.reserve(seen.size());
-    const std::uint64_t base = Mix(query.seed);
-    for (const ProjectedPoint& p : seen)
-      shuffled.emplace_back(Mix(base ^ static_cast<std::uint64_t>(p.id)), &p);
-    std::sort(shuffled.begin(), shuffled.end());
-    std::vector<std::int32_t> taken(static_cast<std::size_t>(columns) * rows, 0);
-    std::vector<Ranked> ranked;
-    ranked.reserve(seen.size());
-    for (const auto& [order, p] : shuffled) {
-      const int column = static_cast<int>((p->pixel.x() + query.margin_px) / kTile);
-      const int row = static_cast<int>((p->pixel.y() + query.margin_px) / kTile);
-      ranked.push_back({taken[static_cast<std::size_t>(row) * columns + column]++, order, p->id});
-    }
-    std::nth_element(ranked.begin(), ranked.begin() + query.max_points, ranked.end(),
-                     [](const Ranked& a, const Ranked& b) {
-                       return std::tie(a.turn, a.order, a.id) < std::tie(b.turn, b.order, b.id);
-                     });
-    for (int k = 0; k < query.max_points; ++k) answer.ids.push_back(ranked[k].id);
+    answer.ids = SpreadSubset(seen, query);
   } else {
+    answer.ids.reserve(seen.size());
     for (const ProjectedPoint& p : seen) answer.ids.push_back(p.id);
   }
   std::sort(answer.ids.begin(), answer.ids.end());

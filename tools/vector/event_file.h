@@ -9,8 +9,8 @@
 namespace evit {
 
 /// VECtor's `*.synced.left_event.hdf5` (DSEC layout): events/{x u16, y u16, p u8, t u32 us after t_offset},
-/// t_offset i64[1] us, ms_to_idx u64. Chunked; Zstandard filter 32015, registered in process (no plug-in needed).
-/// All functions throw std::runtime_error naming the file, the dataset and what is wrong.
+/// t_offset i64[1] us, ms_to_idx u64. Chunked; Zstandard filter 32015, registered in process (no plug-in
+/// needed). All functions throw std::runtime_error naming the file, the dataset and what is wrong.
 class EventFileWriter {
  public:
   /// Writes `path`.part; Close() renames it to `path`. Without Close() the part file is removed.
@@ -29,7 +29,8 @@ class EventFileReader {
   explicit EventFileReader(const std::string& path);
   ~EventFileReader();
   std::size_t size() const;  // events in the file
-  /// Reads up to `max_events` further events (absolute stamps) into `events` (replaced). Returns how many; 0 at the end.
+  /// Reads up to `max_events` further events (absolute stamps) into `events` (replaced). Returns how many; 0
+  /// at the end.
   std::size_t Read(std::size_t max_events, EventArray* events);
 
  private:
