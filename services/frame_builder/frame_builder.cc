@@ -78,6 +78,7 @@ void FrameBuilder::Work() {
     } else if (!flushed_ && inbox_.ended()) {
       builder_.Flush();
       flushed_ = true;
+      if (credit_) credit_->Ask();  // so that the sender knows at once that all has arrived
     } else {
       break;
     }
