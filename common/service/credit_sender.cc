@@ -1,5 +1,6 @@
 #include "common/service/credit_sender.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "common/bus/codec.h"
@@ -25,11 +26,18 @@ void CreditSender::Consumed(std::int64_t stream_epoch, std::int64_t next_events_
   message_.next_events_seq = next_events_seq;
   message_.next_imu_seq = next_imu_seq;
   bytes_ += static_cast<std::int64_t>(bytes);
-  if (bytes_ >= kBytes) Send();
+  if (bytes_ >= BytesPerCredit()) Send();
+}
+
+std::int64_t CreditSender::BytesPerCredit() const {
+  // The sender's window is a quarter of the receive buffer: where that is small, 64 kB may never be under
+  // way, and the stream would crawl from one 50 ms credit to the next.
+  const std::int64_t buffer = bus_->granted_receive_buffer();
+  return buffer > 0 ? std::clamp<std::int64_t>(buffer / 16, 4096, kBytes) : kBytes;
 }
 
 void CreditSender::Tick() {
-  if (asked_ || SteadyTime() - last_sent_us_ >= kPeriodUs) Send();
+  if (asked_ || SteadyTime() - last_sent_us_ >= (bytes_ > 0 ? kBusyPeriodUs : kPeriodUs)) Send();
 }
 
 void CreditSender::Send() {

@@ -12,12 +12,14 @@
 namespace evit {
 
 /// A consumer's side of lossless replay: says on CREDIT how far it has come. A credit goes out for each 64 kB
-/// consumed, every 50 ms, and at the next Tick() after Ask(): so the sender hears of a consumer before it
-/// sends anything, and a lost credit is made good by the next.
+/// consumed (less where the receive buffer is small), within 2 ms of anything consumed, every 50 ms, and at
+/// the next Tick() after Ask(): so the sender hears of a consumer before it sends anything, a window that
+/// holds few messages does not stall, and a lost credit is made good by the next.
 class CreditSender {
  public:
   static constexpr std::int64_t kBytes = 64 << 10;
   static constexpr std::int64_t kPeriodUs = 50'000;
+  static constexpr std::int64_t kBusyPeriodUs = 2'000;
 
   /// `consumer`: service name, what log_replay has as --wait-for. `epoch`: of this run of the consumer.
   CreditSender(Bus* bus, const Channels& channels, const std::string& consumer, std::int64_t epoch);
@@ -36,6 +38,7 @@ class CreditSender {
 
  private:
   void Send();
+  std::int64_t BytesPerCredit() const;
 
   Bus* bus_;
   std::string channel_;

@@ -95,7 +95,6 @@ TEST_F(ServiceTest, CreditGoesOutAtOnceForEachWindowfulAndOnRequest) {
   sender.Tick();
   sender.Consumed(7, 2, 0, 40'000);
   sender.Consumed(7, 3, 0, 40'000);  // 64 kB
-  sender.Tick();
   sender.Ask();
   sender.Tick();
   std::this_thread::sleep_for(std::chrono::milliseconds(55));

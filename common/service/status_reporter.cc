@@ -17,7 +17,7 @@ constexpr std::chrono::seconds kPeriod(1);
 }  // namespace
 
 StatusReporter::StatusReporter(Bus* bus, const Channels& channels, std::string service, std::int64_t epoch)
-    : bus_(bus), channel_(channels.status), message_(), last_sent_() {
+    : bus_(bus), channel_(channels.status), message_() {
   message_.service = std::move(service);
   message_.state = "starting";
   message_.epoch = epoch;

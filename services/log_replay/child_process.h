@@ -17,14 +17,18 @@ namespace evit {
 /// A program started by a test, killed with it. What it says on stderr goes to a file.
 class ChildProcess {
  public:
-  ChildProcess(const std::vector<std::string>& command, std::string stderr_file)
-      : stderr_file_(std::move(stderr_file)), pid_(::fork()) {
-    if (pid_ != 0) return;
-    const int fd = ::open(stderr_file_.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
-    ::dup2(fd, STDERR_FILENO);
+  ChildProcess(std::vector<std::string> command, std::string stderr_file)
+      : stderr_file_(std::move(stderr_file)) {
     std::vector<char*> arguments;
-    for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.reserve(command.size() + 1);
+    for (std::string& word : command) arguments.push_back(word.data());
     arguments.push_back(nullptr);
+    const char* file = stderr_file_.c_str();
+    // The bus has threads: nothing that allocates may happen between fork and exec.
+    pid_ = ::fork();
+    if (pid_ != 0) return;
+    const int fd = ::open(file, O_CREAT | O_TRUNC | O_WRONLY, 0600);
+    ::dup2(fd, STDERR_FILENO);
     ::execv(arguments[0], arguments.data());
     ::_exit(127);
   }
@@ -62,7 +66,7 @@ class ChildProcess {
 
  private:
   std::string stderr_file_;
-  pid_t pid_;
+  pid_t pid_ = -1;
   bool reaped_ = false;
 };
 

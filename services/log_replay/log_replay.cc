@@ -14,9 +14,10 @@ namespace evit {
 namespace {
 
 constexpr char kName[] = "log_replay";
-constexpr std::int64_t kWindow = 1 << 20;  // bytes under way at most
-constexpr std::int64_t kOverhead = 512;    // bytes: what a datagram costs the receive buffer beyond its data
-constexpr int kBurst = 64;                 // messages between two looks at the bus
+constexpr std::int64_t kWindow = 1 << 20;        // bytes under way at most
+constexpr std::int64_t kTwoPackets = 128 << 10;  // bytes
+constexpr std::int64_t kOverhead = 512;  // bytes: what a datagram costs the receive buffer beyond its data
+constexpr int kBurst = 64;               // messages between two looks at the bus
 constexpr std::int64_t kReportPeriodUs = 200'000;
 constexpr std::int64_t kSettleUs =
     500'000;  // STREAM_END comes every 100 ms at first, so that one may get lost
@@ -24,9 +25,14 @@ constexpr std::int64_t kEndPeriodUs = 1'000'000;
 constexpr std::int64_t kEndPeriodSettlingUs = 100'000;
 constexpr std::int64_t kSilenceUs = 3'000'000;  // consumers send credit every 50 ms
 
-std::int64_t WindowSize(int granted_receive_buffer) {
+/// Bytes that may be under way: 1 MiB, or a quarter of the receive buffer where that is less, but two full
+/// packets where that leaves a third of it free: with one at a time, sender and consumer would only take
+/// turns.
+std::int64_t WindowSize(std::int64_t granted_receive_buffer) {
+  if (granted_receive_buffer <= 0) return kWindow;
   // Consumers run on this host and get the buffer this process got.
-  return granted_receive_buffer > 0 ? std::min<std::int64_t>(kWindow, granted_receive_buffer / 4) : kWindow;
+  const std::int64_t two_packets = std::min(kTwoPackets, granted_receive_buffer * 5 / 8);
+  return std::clamp(granted_receive_buffer / 4, two_packets, kWindow);
 }
 
 std::string Join(const std::vector<std::string>& names) {

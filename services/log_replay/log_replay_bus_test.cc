@@ -15,6 +15,7 @@ namespace evit {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+constexpr char kProgram[] = EVIT_BIN_DIR "/log_replay";
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 
 /// A consumer as lossless replay expects it: takes exactly the next message of each stream, drops all else.
@@ -127,7 +128,7 @@ class LogReplayBusTest : public ::testing::Test {
   ~LogReplayBusTest() override { std::filesystem::remove(log_); }
 
   std::unique_ptr<ChildProcess> Start(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), {EVIT_BIN_DIR "/log_replay", "--log", log_, "--lcm-url", kUrl});
+    arguments.insert(arguments.begin(), {kProgram, "--log", log_, "--lcm-url", kUrl});
     return std::make_unique<ChildProcess>(arguments, log_ + ".stderr");
   }
   static void ExpectEverythingOnceInOrder(const Consumer& consumer, int packets) {
@@ -175,7 +176,7 @@ TEST_F(LogReplayBusTest, WaitsForAConsumerThatComesLate) {
   const auto replay = Start({"--lossless", "--wait-for", "c"});
   ASSERT_TRUE(consumer.PollUntil([&] { return consumer.HasState("waiting"); }));
   EXPECT_TRUE(consumer.events.empty());
-  EXPECT_NE(consumer.statuses.back().detail.find("c"), std::string::npos);
+  EXPECT_NE(consumer.statuses.back().detail.find("from c:"), std::string::npos);
   EXPECT_GT(consumer.statuses.back().granted_receive_buffer, 0);
   consumer.send_credit = true;
   ASSERT_TRUE(consumer.PollUntil([&] { return consumer.complete(); }));

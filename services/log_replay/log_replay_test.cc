@@ -102,7 +102,7 @@ TEST_F(LogReplayTest, WaitsForItsConsumerThenSendsEverythingAndSaysSo) {
   EXPECT_TRUE(events_.empty());
   ASSERT_FALSE(status_.empty());
   EXPECT_EQ(status_.back().state, "waiting");
-  EXPECT_NE(status_.back().detail.find("c"), std::string::npos);
+  EXPECT_NE(status_.back().detail.find("from c:"), std::string::npos);
   for (int i = 0; i < 100 && end_.empty(); ++i) Step();
   ASSERT_EQ(events_.size(), 100U);
   EXPECT_EQ(imu_.size(), 200U);
