@@ -98,9 +98,10 @@ PoseSpline PoseSpline::Moved(const SE3& T_new_old) const {
 
 PoseSpline PoseSpline::Fit(const Trajectory& poses, double knot_spacing) {
   if (!(knot_spacing > 1e-3)) throw std::runtime_error("knot spacing must be over 1 ms");
-  if (poses.size() < 2 * kOrder) {
+  constexpr std::size_t kFewest = 12;
+  if (poses.size() < kFewest) {
     throw std::runtime_error("trajectory has " + std::to_string(poses.size()) + " poses; needs at least " +
-                             std::to_string(2 * kOrder));
+                             std::to_string(kFewest));
   }
   for (std::size_t i = 1; i < poses.size(); ++i) {
     if (poses[i].t <= poses[i - 1].t) throw std::runtime_error("trajectory stamps do not increase");

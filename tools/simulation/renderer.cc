@@ -109,7 +109,7 @@ void Renderer::Shade(const std::vector<PlacedSurface>& placed, View* view) const
   for (std::size_t begin = 0, end = 0; begin < n; begin = end) {
     while (end < n && id[end] == id[begin]) ++end;
     if (id[begin] < 0) continue;
-    const PlacedSurface surface = placed[id[begin]];  // a copy nothing else can change: stays in registers
+    const PlacedSurface& surface = placed[id[begin]];
     for (std::size_t i = begin; i < end; ++i) {
       view->image[i] = surface.Shade(ray_x_[i], ray_y_[i], view->inverse_depth[i]);
     }

@@ -44,6 +44,7 @@ Trajectory MakeBuiltin(bool fast, double duration, const Rig& rig) {
   Random random(fast ? 2 : 1, 0xB1);
   const double speed = fast ? 0.8 : 0.15, rate = fast ? 1.5 : 0.4, tempo = fast ? 1.6 : 0.7;
   std::vector<Wave> waves;
+  waves.reserve(6);
   for (int i = 0; i < 6; ++i) waves.emplace_back(&random, tempo);
   const double step = 0.005, end = duration + 2 * ToSeconds(kMargin);
   // First of unit size, then scaled to the wanted mean speed and rate.
