@@ -1,0 +1,53 @@
+#include "common/events/keyframe_policy.h"
+
+#include <gtest/gtest.h>
+
+#include "common/events/test_streams.h"
+
+namespace evit {
+namespace {
+
+using Mode = TrackerFeedback::Mode;
+
+class KeyframePolicyTest : public ::testing::Test {
+ protected:
+  static KeyframePolicy::Situation At(Mode mode, Utime imu, std::int64_t n_events, int n_imu) {
+    return {mode, 1'000'000, imu, imu - 5'000, n_events, n_imu};
+  }
+  // 1500 events, 4 samples, 60 ms with 200 events; high rate: 7.3 ms.
+  KeyframePolicy policy_{test::SmallConfig().keyframes(), test::SmallConfig().surface()};
+};
+
+TEST_F(KeyframePolicyTest, TrackingNeedsEnoughEventsAndEnoughSamples) {
+  EXPECT_FALSE(policy_.Due(At(Mode::kTracking, 1'020'000, 1'499, 4)));
+  EXPECT_FALSE(policy_.Due(At(Mode::kTracking, 1'015'000, 90'000, 3)));
+  EXPECT_EQ(policy_.Due(At(Mode::kTracking, 1'020'000, 1'500, 4)), 1'020'000);
+}
+
+TEST_F(KeyframePolicyTest, SlowMotionMakesAKeyframeInTheEndIfAnythingMoves) {
+  EXPECT_FALSE(policy_.Due(At(Mode::kTracking, 1'059'999, 1'000, 12)));
+  EXPECT_EQ(policy_.Due(At(Mode::kTracking, 1'060'000, 1'000, 12)), 1'060'000);
+  EXPECT_FALSE(policy_.Due(At(Mode::kTracking, 9'000'000, 199, 1'600)));
+}
+
+TEST_F(KeyframePolicyTest, HighRateStampsLieBetweenSamples) {
+  for (const Mode mode : {Mode::kBootstrapping, Mode::kLost}) {
+    EXPECT_FALSE(policy_.Due(At(mode, 1'007'299, 0, 1)));
+    EXPECT_EQ(policy_.Due(At(mode, 1'007'300, 0, 1)), 1'007'300);
+    EXPECT_EQ(policy_.Due(At(mode, 1'010'000, 0, 2)), 1'007'300);
+  }
+}
+
+TEST_F(KeyframePolicyTest, NothingIsInterpolatedInsideAHoleOfTheImu) {
+  EXPECT_EQ(policy_.Due({Mode::kLost, 1'000'000, 1'500'000, 1'005'000, 0, 2}), 1'500'000);
+}
+
+TEST_F(KeyframePolicyTest, DecayFollowsTheImageSpeed) {
+  EXPECT_DOUBLE_EQ(policy_.DecayUs(0), 8'000);        // unknown
+  EXPECT_DOUBLE_EQ(policy_.DecayUs(1e-9), 30'000);    // longest
+  EXPECT_DOUBLE_EQ(policy_.DecayUs(300), 10'000);     // 3 px
+  EXPECT_DOUBLE_EQ(policy_.DecayUs(100'000), 2'000);  // shortest
+}
+
+}  // namespace
+}  // namespace evit
