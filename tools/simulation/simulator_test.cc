@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "common/config/config.h"
 #include "tools/simulation/room.h"
 #include "tools/vector/event_file.h"
 
@@ -215,6 +217,33 @@ TEST(LoadMotion, TellsMarkerPosesFromBodyPoses) {
   const Utime t = body.begin + 1'000'000;
   EXPECT_LT((again.spline.Pose(t).p - body.spline.Pose(t).p).norm(), 1e-4);
   EXPECT_LT(AngularDistance(again.spline.Pose(t).q, body.spline.Pose(t).q), 1e-3);
+}
+
+// The recordings themselves, and what is simulated from them.
+TEST(LoadMotion, TellsTheFrameOfRealFiles) {
+  const char* shared = std::getenv("EVIT_SHARED_DATA");
+  const fs::path data = shared ? fs::path(shared) : fs::path(EVIT_SOURCE_DIR) / "../shared/data";
+  const fs::path folder = data / "vector/groundtruth";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not here; set EVIT_SHARED_DATA";
+  const Rig rig = LoadRig(EVIT_SOURCE_DIR "/config/vector/rig.textproto");
+  const Scene scene = MakeRoom(1);
+  for (const char* name : {"robot_normal", "mountain_normal", "sofa_fast"}) {
+    TrajectorySettings settings;
+    settings.source = (folder / (std::string(name) + ".txt")).string();
+    settings.begin_s = 5;
+    settings.end_s = 15;
+    Motion motion = LoadMotion(settings, rig);
+    EXPECT_THAT(motion.note, HasSubstr("poses read as marker-yup")) << name;
+    PlaceInRoom(rig, scene, &motion);
+    Trajectory body;
+    for (Utime t = motion.begin; t < motion.end; t += 5000) body.push_back({t, motion.spline.Pose(t)});
+    const fs::path path = fs::temp_directory_path() / ("evit_body_" + std::to_string(getpid()) + ".tum");
+    WriteTum(path.string(), body);
+    settings.source = path.string();
+    settings.begin_s = settings.end_s = 0;
+    EXPECT_THAT(LoadMotion(settings, rig).note, HasSubstr("poses read as body")) << name;
+    fs::remove(path);
+  }
 }
 
 }  // namespace

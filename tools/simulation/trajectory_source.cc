@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iomanip>
 #include <sstream>
 #include <stdexcept>
 
@@ -74,21 +75,30 @@ Trajectory MakeBuiltin(bool fast, double duration, const Rig& rig) {
   return poses;
 }
 
-double MeanCameraUp(const Trajectory& poses, const SE3& left, const SE3& right) {
-  double sum = 0;
-  for (const StampedPose& pose : poses) sum -= ((left * pose.pose * right).q * Eigen::Vector3d::UnitY()).z();
-  return sum / static_cast<double>(poses.size());
+// How much the poses look like a camera held by hand: upright, level, 0.5 to 2.5 m over the floor. Each alone
+// is not enough: on VECtor's files the wrong frame can be as upright, on others as level, as the right one.
+double HandHeldScore(const Trajectory& poses, const SE3& left, const SE3& right) {
+  double up = 0, roll = 0, height = 0;
+  for (const StampedPose& pose : poses) {
+    const SE3 T_map_camera = left * pose.pose * right;
+    up -= (T_map_camera.q * Eigen::Vector3d::UnitY()).z();
+    roll += std::abs((T_map_camera.q * Eigen::Vector3d::UnitX()).z());
+    height += T_map_camera.p.z();
+  }
+  const auto n = static_cast<double>(poses.size());
+  return (up - roll) / n - (height / n < 0.5 || height / n > 2.5 ? 1 : 0);
 }
 
 // Makes T_world_body, z up, of whatever the file holds.
 std::string ToBody(TrajectoryFrame frame, const Rig& rig, Trajectory* poses) {
-  const double body = MeanCameraUp(*poses, SE3(), rig.T_body_camera);
-  const double marker = MeanCameraUp(*poses, ZUpFromYUp(), rig.T_marker_body * rig.T_body_camera);
+  const double body = HandHeldScore(*poses, SE3(), rig.T_body_camera);
+  const double marker = HandHeldScore(*poses, ZUpFromYUp(), rig.T_marker_body * rig.T_body_camera);
   std::ostringstream note;
   if (frame == TrajectoryFrame::kAuto) {
     frame = marker > body ? TrajectoryFrame::kMarkerYUp : TrajectoryFrame::kBody;
-    note << "chosen by itself: the camera's up vector is on average at " << marker
-         << " of world up as marker-yup and " << body << " as body; ";
+    note << std::fixed << std::setprecision(2)
+         << "frame chosen by itself (upright, level, hand-held height: marker-yup " << marker << ", body "
+         << body << "); ";
   }
   const bool is_marker = frame == TrajectoryFrame::kMarkerYUp;
   note << "poses read as " << (is_marker ? "marker-yup" : "body");
