@@ -12,6 +12,39 @@ constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
 constexpr int kTableSize = 4096;      // fits the first-level cache; a step is 0.15 % of the decay
 constexpr double kSupportDecays = 2;  // a neighbour supports a pixel if it fired within so many decays
 
+// The loops over rows: plain pointers that do not overlap, so that the compiler makes vectors of them;
+// without branches, since whether a pixel has an event is hard to foretell.
+
+void DistanceRow(const std::int32_t* __restrict a, const std::int32_t* __restrict b, std::ptrdiff_t n,
+                 std::int32_t now, std::int32_t* __restrict out) {
+  for (std::ptrdiff_t i = 0; i < n; ++i) out[i] = now - (a[i] > b[i] ? a[i] : b[i]);
+}
+
+void NearRow(const std::int32_t* __restrict d, int n, std::int32_t limit, std::uint8_t* __restrict out) {
+  for (int x = 0; x < n; ++x) out[x] = d[x] <= limit ? 255 : 0;
+}
+
+/// `above`: first of three rows of near_, each n + 2 wide. out: 255 where a neighbour is near.
+void SupportRow(const std::uint8_t* __restrict above, int n, std::uint8_t* __restrict column,
+                std::uint8_t* __restrict out) {
+  const std::uint8_t* __restrict here = above + n + 2;
+  const std::uint8_t* __restrict below = here + n + 2;
+  for (int x = 0; x < n + 2; ++x) column[x] = above[x] | here[x] | below[x];
+  for (int x = 0; x < n; ++x) out[x] = column[x] | column[x + 2] | above[x + 1] | below[x + 1];
+}
+
+/// Places in the table; `none` beyond `max`.
+void IndexRow(const std::int32_t* __restrict d, int n, std::int32_t max, int shift, std::int32_t none,
+              std::int32_t* __restrict out) {
+  for (int x = 0; x < n; ++x) out[x] = d[x] <= max ? d[x] >> shift : none;
+}
+
+void LookUpRow(const std::int32_t* __restrict index, const std::uint8_t* __restrict support, int n,
+               const std::uint8_t* __restrict table, std::uint8_t* __restrict out) {
+  for (int x = 0; x < n; ++x) out[x] = table[index[x]];
+  for (int x = 0; x < n; ++x) out[x] &= support[x];
+}
+
 }  // namespace
 
 double VisibleUs(double decay_us, double truncation) {
@@ -62,7 +95,7 @@ void SurfaceRenderer::FillDistances(const ActiveEventSurface& surface, const Vie
   const std::int32_t* const b = surface.stamps(brighter ? 1 : 0);
   std::int32_t* const out = distances->data();
   const auto pixels = static_cast<std::ptrdiff_t>(distances->size());
-  for (std::ptrdiff_t i = 0; i < pixels; ++i) out[i] = now - std::max(a[i], b[i]);
+  DistanceRow(a, b, pixels, now, out);
   for (std::size_t i = view.begin; view.after != nullptr && i < view.end; ++i) {
     const EventArray& e = *view.after;
     if (!(e.p[i] != 0 ? brighter : darker) || e.x[i] >= width_ || e.y[i] >= height_) continue;
@@ -77,9 +110,8 @@ void SurfaceRenderer::FillDistances(const ActiveEventSurface& surface, const Vie
 void SurfaceRenderer::FindNear(const std::vector<std::int32_t>& distances, double decay_us) {
   const auto limit = static_cast<std::int32_t>(kSupportDecays * decay_us);
   for (int y = 0; y < height_; ++y) {
-    const std::int32_t* const d = distances.data() + y * std::ptrdiff_t{width_};
-    std::uint8_t* const out = near_.data() + (y + 1) * std::ptrdiff_t{width_ + 2} + 1;
-    for (int x = 0; x < width_; ++x) out[x] = d[x] <= limit ? 255 : 0;
+    NearRow(distances.data() + y * std::ptrdiff_t{width_}, width_, limit,
+            near_.data() + (y + 1) * std::ptrdiff_t{width_ + 2} + 1);
   }
 }
 
@@ -87,9 +119,10 @@ void SurfaceRenderer::MakeTable(double decay_us) {
   max_distance_ = static_cast<std::int32_t>(std::min(VisibleUs(decay_us, truncation_), 5e8));
   shift_ = 0;
   while ((max_distance_ >> shift_) >= kTableSize) ++shift_;
-  table_.resize((max_distance_ >> shift_) + 1);
+  const std::size_t size = (max_distance_ >> shift_) + 1;
+  table_.assign(size + 1, 0);  // the last for pixels without an event
   const double half_step = 0.5 * ((1 << shift_) - 1);
-  for (std::size_t i = 0; i < table_.size(); ++i) {
+  for (std::size_t i = 0; i < size; ++i) {
     const double distance = static_cast<double>(i << shift_) + half_step;
     table_[i] = static_cast<std::uint8_t>(std::lround(255 * std::exp(-distance / decay_us)));
   }
@@ -98,21 +131,12 @@ void SurfaceRenderer::MakeTable(double decay_us) {
 SurfaceRenderer::Image SurfaceRenderer::Draw(const std::vector<std::int32_t>& distances) {
   const std::ptrdiff_t stride = width_ + 2;
   std::vector<std::uint8_t> column(stride), support(width_, 255);
+  std::vector<std::int32_t> index(width_);
   for (int y = 0; y < height_; ++y) {
-    if (support_) {
-      const std::uint8_t* const above = near_.data() + y * stride;
-      const std::uint8_t* const here = above + stride;
-      const std::uint8_t* const below = here + stride;
-      for (std::ptrdiff_t x = 0; x < stride; ++x) column[x] = above[x] | here[x] | below[x];
-      for (int x = 0; x < width_; ++x) {
-        support[x] = column[x] | column[x + 2] | above[x + 1] | below[x + 1];
-      }
-    }
-    const std::int32_t* const d = distances.data() + y * std::ptrdiff_t{width_};
-    auto* const out = image_.ptr<std::uint8_t>(y);
-    for (int x = 0; x < width_; ++x) {
-      out[x] = d[x] <= max_distance_ && support[x] != 0 ? table_[d[x] >> shift_] : 0;
-    }
+    if (support_) SupportRow(near_.data() + y * stride, width_, column.data(), support.data());
+    IndexRow(distances.data() + y * std::ptrdiff_t{width_}, width_, max_distance_, shift_,
+             static_cast<std::int32_t>(table_.size()) - 1, index.data());
+    LookUpRow(index.data(), support.data(), width_, table_.data(), image_.ptr<std::uint8_t>(y));
   }
   Image image(std::size_t(width_) * height_);
   cv::Mat drawn(height_, width_, CV_8UC1, image.data());

@@ -48,7 +48,7 @@ class SurfaceRenderer {
   bool split_, support_;
   std::vector<std::int32_t> distances_[2];  // us to the nearest event
   std::vector<std::uint8_t> near_;          // [height + 2][width + 2]: an event close in time
-  std::vector<std::uint8_t> table_;         // T by distance >> shift_
+  std::vector<std::uint8_t> table_;         // T by distance >> shift_; last: none
   std::int32_t max_distance_ = 0;           // us; beyond: T = 0
   int shift_ = 0;
   cv::Mat image_;
