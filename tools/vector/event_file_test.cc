@@ -99,8 +99,8 @@ TEST_F(EventFileTest, DamagedChunkIsNamed) {
   const std::string path = Write(Events(300'000));
   {
     std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
-    // Over several chunks: a damaged frame header is noticed; damaged bytes within a chunk may pass, Zstandard frames
-    // carry no checksum here.
+    // Over several chunks: a damaged frame header is noticed; damaged bytes within a chunk may pass,
+    // Zstandard frames carry no checksum here.
     const auto size = std::filesystem::file_size(path);
     file.seekp(static_cast<std::streamoff>(size / 4));
     file << std::string(size / 2, 'x');

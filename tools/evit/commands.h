@@ -1,0 +1,16 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+/// The subcommands of `evit`. Each adds itself to the program; its work runs when it is chosen on the command
+/// line.
+namespace evit {
+
+void AddImportCommand(CLI::App* app);
+void AddMapCommand(CLI::App* app);
+void AddEvalCommand(CLI::App* app);
+void AddRunCommand(CLI::App* app);
+
+}  // namespace evit

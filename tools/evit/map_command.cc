@@ -1,0 +1,94 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "common/map/map_file.h"
+#include "tools/evit/commands.h"
+#include "tools/evit/options.h"
+
+namespace evit {
+namespace {
+
+// One point, the first, per cell of `size` metres.
+void Thin(PointMap* map, double size) {
+  std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> taken;
+  std::vector<Eigen::Vector3f> kept;
+  for (const Eigen::Vector3f& p : map->points) {
+    const auto cell = [&](float v) { return static_cast<std::int64_t>(std::floor(v / size)); };
+    if (taken.emplace(cell(p.x()), cell(p.y()), cell(p.z())).second) kept.push_back(p);
+  }
+  map->points.swap(kept);
+}
+
+void PrintSummary(const std::string& path, const LoadedMap& loaded, bool json) {
+  const MapSummary s = Summarize(loaded.map);
+  if (json) {
+    const auto list = [](const Eigen::Vector3f& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
+    std::printf("%s\n", nlohmann::json{{"file", path},
+                                       {"format", loaded.format},
+                                       {"points", s.n_points},
+                                       {"dropped", loaded.n_dropped},
+                                       {"min_m", list(s.min)},
+                                       {"max_m", list(s.max)},
+                                       {"median_m", list(s.median)},
+                                       {"spacing_m", s.median_spacing}}
+                            .dump(2)
+                            .c_str());
+    return;
+  }
+  std::printf("%s (%s)\n  points   %zu (%zu not finite left out)\n", path.c_str(), loaded.format.c_str(),
+              s.n_points, loaded.n_dropped);
+  std::printf("  bounds   x %.2f .. %.2f   y %.2f .. %.2f   z %.2f .. %.2f m\n", s.min.x(), s.max.x(),
+              s.min.y(), s.max.y(), s.min.z(), s.max.z());
+  std::printf("  median   %.2f %.2f %.2f m\n  spacing  %.4f m (median distance to the nearest neighbour)\n",
+              s.median.x(), s.median.y(), s.median.z(), s.median_spacing);
+}
+
+}  // namespace
+
+void AddMapCommand(CLI::App* app) {
+  struct Options {
+    std::string in, out, transform;
+    double scale = 1, voxel = 0;
+    bool json = false;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* map = app->add_subcommand("map", "Look at and convert semi-dense maps")->require_subcommand(1);
+
+  CLI::App* convert =
+      map->add_subcommand("import", "Convert a point cloud (PCD, PLY, text) to binary PCD, in metres, z up");
+  convert->add_option("IN", o->in, "Point cloud to read")->required();
+  convert->add_option("OUT", o->out, "PCD to write")->required();
+  convert->add_option("--scale", o->scale, "Multiply coordinates, e.g. 0.001 for millimetres")
+      ->check(CLI::PositiveNumber);
+  convert->add_option("--transform", o->transform,
+                      "16 numbers, row-major 4x4: moves the points (after scaling)");
+  convert->add_option("--voxel", o->voxel, "Keep one point per cell of this size, m")
+      ->check(CLI::PositiveNumber);
+  convert->callback([o] {
+    LoadedMap loaded = LoadMap(o->in);
+    const SE3 T = o->transform.empty() ? SE3() : ParseTransform("--transform", o->transform);
+    for (Eigen::Vector3f& p : loaded.map.points) p = (T * (o->scale * p.cast<double>())).cast<float>();
+    if (o->voxel > 0) Thin(&loaded.map, o->voxel);
+    RequireMetres(Summarize(loaded.map), o->in);
+    WritePcd(o->out, loaded.map);
+    loaded.format = "PCD binary";
+    PrintSummary(o->out, loaded, false);
+  });
+
+  CLI::App* info = map->add_subcommand("info", "Points, bounds and spacing of a point cloud");
+  info->add_option("FILE", o->in, "Point cloud to read")->required();
+  info->add_flag("--json", o->json, "Machine-readable output");
+  info->callback([o] {
+    const LoadedMap loaded = LoadMap(o->in);
+    PrintSummary(o->in, loaded, o->json);
+    RequireMetres(Summarize(loaded.map), o->in);
+  });
+}  // namespace evit
+
+}  // namespace evit

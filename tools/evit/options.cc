@@ -1,0 +1,41 @@
+#include "tools/evit/options.h"
+
+#include <Eigen/LU>
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+
+namespace evit {
+
+std::pair<double, double> ParseSeconds(const std::string& text) {
+  double a = 0, b = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf:%lf%c", &a, &b, &rest) != 2 || !(a >= 0 && b > a)) {
+    throw std::runtime_error("--seconds " + text + ": A:B is wanted, with 0 <= A < B");
+  }
+  return {a, b};
+}
+
+SE3 ParseTransform(const std::string& option, const std::string& text) {
+  std::istringstream words(text);
+  Eigen::Matrix<double, 4, 4, Eigen::RowMajor> m;
+  for (int k = 0; k < 16; ++k) {
+    if (!(words >> m.data()[k]))
+      throw std::runtime_error(option + ": 16 numbers are wanted (4x4, row-major)");
+  }
+  const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
+  if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || R.determinant() < 0) {
+    throw std::runtime_error(option + ": the upper left 3x3 is not a rotation");
+  }
+  return SE3(Eigen::Matrix4d(m));
+}
+
+std::string ConfigFile(const std::string& name) {
+  const std::filesystem::path beside =
+      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "../config" / name;
+  if (std::filesystem::exists(beside)) return beside.lexically_normal().string();
+  return std::string(EVIT_PROJECT_DIR) + "/config/" + name;
+}
+
+}  // namespace evit

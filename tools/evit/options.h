@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "common/geometry/se3.h"
+
+/// Forms of option values that several subcommands share. Each throws std::runtime_error naming the option.
+namespace evit {
+
+/// "A:B" in seconds, A < B.
+std::pair<double, double> ParseSeconds(const std::string& text);
+
+/// 16 numbers, row-major 4x4, a rigid transformation.
+SE3 ParseTransform(const std::string& option, const std::string& text);
+
+/// A file below the project's config/ folder: where this program was built from, or beside its installation.
+std::string ConfigFile(const std::string& name);
+
+}  // namespace evit

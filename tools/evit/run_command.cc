@@ -1,0 +1,75 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "tools/evit/commands.h"
+#include "tools/evit/options.h"
+#include "tools/run/run.h"
+
+namespace evit {
+namespace {
+
+SE3 ParsePose(const std::string& text) {
+  double v[7];
+  char rest = 0;
+  const int n = std::sscanf(text.c_str(), " %lf %lf %lf %lf %lf %lf %lf %c", v, v + 1, v + 2, v + 3, v + 4,
+                            v + 5, v + 6, &rest);
+  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+  if (n != 7 || !(std::abs(q.norm() - 1) < 1e-2)) {
+    throw std::runtime_error("--initial-pose \"" + text +
+                             "\": seven numbers are wanted, x y z (m) and a unit quaternion qx qy qz qw");
+  }
+  return {q.normalized(), {v[0], v[1], v[2]}};
+}
+
+}  // namespace
+
+void AddRunCommand(CLI::App* app) {
+  struct Options {
+    RunJob job;
+    std::string pose, from, seconds;
+    bool realtime = false, lossless = false;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* run =
+      app->add_subcommand("run", "Track a recorded log: starts the four services, scores the result");
+  run->add_option("--log", o->job.log, "LCM log with EVENTS and IMU (evit import)")->required();
+  run->add_option("--map", o->job.map, "Semi-dense map: PCD, PLY or text, metres, z up")->required();
+  run->add_option("--rig", o->job.rig, "Calibration, e.g. config/vector/rig.textproto")->required();
+  run->add_option("--config", o->job.config, "Tracker settings (default: config/tracker.textproto)");
+  auto* pose =
+      run->add_option("--initial-pose", o->pose, "Body in the map at the start: \"x y z qx qy qz qw\"");
+  auto* from =
+      run->add_option("--initial-from", o->from, "Take it from this truth (TUM), and score against it");
+  pose->excludes(from);
+  run->add_option("--truth", o->job.truth, "Truth (TUM) to score against");
+  run->add_option("--out", o->job.out, "Folder for the results")->required();
+  auto* realtime =
+      run->add_flag("--realtime", o->realtime, "Play in real time; nothing waits, what is lost is counted");
+  run->add_flag("--lossless", o->lossless,
+                "As fast as everything is used, bit-identical every time (default)")
+      ->excludes(realtime);
+  run->add_option("--speed", o->job.speed, "With --realtime: x times faster")->check(CLI::PositiveNumber);
+  run->add_option("--seconds", o->seconds, "A:B, play only this part of the log");
+  run->add_option("--lcm-url", o->job.lcm_url,
+                  "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
+  run->add_option("--prefix", o->job.prefix, "Prefix of all channels, so that several pipelines share a bus");
+  run->footer("Exit code: 0 tracked to the end, 1 could not run, 2 LOST or never tracking, 130 interrupted.");
+  run->callback([o, app] {
+    RunJob& job = o->job;
+    if (o->pose.empty() && o->from.empty())
+      throw std::runtime_error("run: --initial-pose or --initial-from is wanted");
+    if (!o->pose.empty()) job.initial_pose = ParsePose(o->pose);
+    if (job.truth.empty()) job.truth = o->from;
+    if (!o->seconds.empty()) job.seconds = ParseSeconds(o->seconds);
+    if (job.config.empty()) job.config = ConfigFile("tracker.textproto");
+    job.lossless = !o->realtime;
+    job.command = app->config_to_str();
+    const int code = Run(job);
+    if (code != 0) throw CLI::RuntimeError(code);
+  });
+}
+
+}  // namespace evit

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+namespace evit {
+
+/// One curve or cloud of points in a chart.
+struct Series {
+  std::string name;  // in the legend; empty: not listed
+  cv::Scalar color;  // B, G, R
+  std::vector<double> x, y;
+  bool line = true;  // false: dots
+  double gap = 0;    // lines are broken where x jumps by more than this; 0: never
+};
+
+/// A chart with axes, ticks, grid, labels and legend, drawn into a rectangle of an image.
+struct Chart {
+  std::string title, x_label, y_label;
+  std::vector<Series> series;
+  bool equal_axes = false;  // one metre is one metre both ways (top view)
+  bool from_zero = false;   // the y axis begins at 0 (errors)
+
+  void Draw(cv::Mat* image, const cv::Rect& where) const;
+};
+
+/// Text with its left end, centre or right end at a point.
+enum class Anchor { kLeft, kCenter, kRight };
+void DrawText(cv::Mat* image, const std::string& text, cv::Point at, double size, Anchor anchor,
+              const cv::Scalar& color = cv::Scalar(40, 40, 40), int thickness = 1);
+
+}  // namespace evit

@@ -1,0 +1,109 @@
+#include "tools/run/local_network.h"
+
+#include <arpa/inet.h>
+#include <net/if.h>
+#include <net/route.h>
+#include <sched.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "common/bus/lcm_url.h"
+
+namespace evit {
+namespace {
+
+[[noreturn]] void Fail(const std::string& what) {
+  throw std::runtime_error(
+      "cannot make a network namespace (" + what + ": " + std::strerror(errno) +
+      "); give the host's lo a multicast route instead: sudo ip link set lo multicast on && sudo "
+      "ip route add 224.0.0.0/4 dev lo");
+}
+
+void WriteFile(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) Fail(path);
+}
+
+// lo up, and 224.0.0.0/4 through it: what `ip link set lo up; ip route add 224.0.0.0/4 dev lo` does.
+void ConfigureLoopback() {
+  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
+  if (fd < 0) Fail("socket");
+  ifreq request{};
+  std::strncpy(request.ifr_name, "lo", IFNAMSIZ - 1);
+  request.ifr_flags = IFF_UP | IFF_RUNNING | IFF_LOOPBACK | IFF_MULTICAST;
+  if (ioctl(fd, SIOCSIFFLAGS, &request) != 0) Fail("lo up");
+  rtentry route{};
+  const auto set = [](sockaddr* address, const char* text) {
+    auto* in = reinterpret_cast<sockaddr_in*>(address);
+    in->sin_family = AF_INET;
+    inet_pton(AF_INET, text, &in->sin_addr);
+  };
+  set(&route.rt_dst, "224.0.0.0");
+  set(&route.rt_genmask, "240.0.0.0");
+  set(&route.rt_gateway, "0.0.0.0");
+  route.rt_flags = RTF_UP;
+  char device[] = "lo";
+  route.rt_dev = device;
+  if (ioctl(fd, SIOCADDRT, &route) != 0) Fail("route to 224.0.0.0/4");
+  close(fd);
+}
+
+std::filesystem::path RunFolder() {
+  const char* folder = std::getenv("XDG_RUNTIME_DIR");
+  if (folder != nullptr && std::filesystem::is_directory(folder))
+    return std::filesystem::path(folder) / "evit";
+  return std::filesystem::temp_directory_path() / ("evit-" + std::to_string(getuid()));
+}
+
+// Whether the route to the group leads through lo: a group that is reached through a network card would send
+// out.
+bool StaysOnHost(const LcmUrl& url) {
+  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in group{}, local{};
+  group.sin_family = AF_INET;
+  group.sin_port = htons(static_cast<std::uint16_t>(url.port));
+  socklen_t size = sizeof local;
+  const bool ok = inet_pton(AF_INET, url.group.c_str(), &group.sin_addr) == 1 &&
+                  connect(fd, reinterpret_cast<sockaddr*>(&group), sizeof group) == 0 &&
+                  getsockname(fd, reinterpret_cast<sockaddr*>(&local), &size) == 0;
+  close(fd);
+  return ok && (ntohl(local.sin_addr.s_addr) >> 24) == 127;
+}
+
+}  // namespace
+
+bool EnsureLocalMulticast(const std::string& url) {
+  const LcmUrl parsed = ParseLcmUrl(url);
+  if (!parsed.multicast || StaysOnHost(parsed)) return false;
+  const std::string uid = std::to_string(getuid()), gid = std::to_string(getgid());
+  if (unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) Fail("unshare");
+  WriteFile("/proc/self/setgroups", "deny");
+  WriteFile("/proc/self/uid_map", uid + " " + uid + " 1");
+  WriteFile("/proc/self/gid_map", gid + " " + gid + " 1");
+  ConfigureLoopback();
+  return true;
+}
+
+RunFile::RunFile() {
+  std::error_code ignored;  // only convenience hangs on this file
+  std::filesystem::create_directories(RunFolder(), ignored);
+  path_ = (RunFolder() / ("run-" + std::to_string(getpid()))).string();
+  std::ofstream(path_) << getpid() << '\n';
+}
+
+RunFile::~RunFile() {
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+}
+
+}  // namespace evit

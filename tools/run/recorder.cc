@@ -1,0 +1,91 @@
+#include "tools/run/recorder.h"
+
+#include <algorithm>
+
+#include "common/bus/codec.h"
+
+namespace evit {
+namespace {
+
+StampedPose PoseOf(const node_state_t& node) {
+  const double* q = node.orientation;
+  return {node.utime,
+          {Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(), Eigen::Vector3d(node.position)}};
+}
+
+}  // namespace
+
+Recorder::Recorder(Bus* bus, const Channels& channels) {
+  mode_.keyframe_seq = -1;
+  bus->Subscribe(channels.window_state,
+                 [this](const std::string&, const std::uint8_t* data, std::size_t size) {
+                   window_state_t message;
+                   if (DecodeChecked(data, size, &message)) OnWindow(message);
+                 });
+  bus->Subscribe(channels.tracker_mode,
+                 [this](const std::string&, const std::uint8_t* data, std::size_t size) {
+                   tracker_mode_t message;
+                   if (DecodeChecked(data, size, &message)) OnMode(message);
+                 });
+  bus->Subscribe(channels.status, [this](const std::string&, const std::uint8_t* data, std::size_t size) {
+    service_status_t message;
+    if (DecodeChecked(data, size, &message)) statuses_[message.service] = message;
+  });
+}
+
+void Recorder::OnWindow(const window_state_t& message) {
+  if (message.node.empty()) return;
+  active_ = true;
+  const StampedPose newest = PoseOf(message.node.back());
+  if (online_.empty() || newest.t > online_.back().t) {
+    online_.push_back(newest);
+    solve_ms_ += message.solve_ms;
+  }
+  // What is older than the window's first node has left it.
+  const std::int64_t first = message.node.front().keyframe_seq;
+  while (!window_.empty() && window_.begin()->first < first) {
+    if (left_.empty() || window_.begin()->second.t > left_.back().t) left_.push_back(window_.begin()->second);
+    window_.erase(window_.begin());
+  }
+  for (const node_state_t& node : message.node) window_[node.keyframe_seq] = PoseOf(node);
+}
+
+void Recorder::OnMode(const tracker_mode_t& message) {
+  active_ = true;
+  if (mode_changes_.empty() || message.mode != mode_.mode || message.reason != mode_.reason) {
+    mode_changes_.push_back({message.utime, message.mode, message.reason});
+  }
+  mode_ = message;
+}
+
+Trajectory Recorder::smoothed() const {
+  Trajectory all = left_;
+  for (const auto& [seq, pose] : window_) {
+    if (all.empty() || pose.t > all.back().t) all.push_back(pose);
+  }
+  return all;
+}
+
+double Recorder::progress() const {
+  const auto it = statuses_.find("log_replay");
+  return it == statuses_.end() ? 0 : it->second.progress;
+}
+
+bool Recorder::Finished() const {
+  const auto it = statuses_.find("frame_builder");
+  return it != statuses_.end() && it->second.state == "drained" &&
+         mode_.keyframe_seq >= CounterOf(it->second, "last_keyframe_seq");
+}
+
+bool Recorder::TakeActivity() {
+  const bool active = active_;
+  active_ = false;
+  return active;
+}
+
+std::int64_t CounterOf(const service_status_t& status, const std::string& name) {
+  const auto it = std::find(status.counter_name.begin(), status.counter_name.end(), name);
+  return it == status.counter_name.end() ? 0 : status.counter_value[it - status.counter_name.begin()];
+}
+
+}  // namespace evit

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/bus/bus.h"
+#include "common/bus/channels.h"
+#include "common/evaluation/trajectory.h"
+#include "evit/service_status_t.hpp"
+#include "evit/tracker_mode_t.hpp"
+#include "evit/window_state_t.hpp"
+
+namespace evit {
+
+/// Listens to a run: keeps the trajectories, mode changes and each service's last STATUS, and knows when it
+/// is over.
+class Recorder {
+ public:
+  struct ModeChange {
+    Utime t = 0;
+    int mode = 0;
+    std::string reason;
+  };
+
+  /// `bus` must outlive this.
+  Recorder(Bus* bus, const Channels& channels);
+
+  /// Every keyframe's pose as it was first estimated.
+  const Trajectory& online() const { return online_; }
+  /// Every keyframe's pose as it left the window; those still in it as they are now.
+  Trajectory smoothed() const;
+
+  const std::vector<ModeChange>& mode_changes() const { return mode_changes_; }
+  const tracker_mode_t& mode() const { return mode_; }
+  std::int64_t n_keyframes() const { return mode_.keyframe_seq + 1; }
+  const std::map<std::string, service_status_t>& statuses() const { return statuses_; }
+  double progress() const;
+
+  /// Mean milliseconds of the optimiser, over all keyframes with a pose.
+  double mean_solve_ms() const {
+    return online_.empty() ? 0 : solve_ms_ / static_cast<double>(online_.size());
+  }
+
+  /// frame_builder has used everything and the tracker has answered its last keyframe.
+  bool Finished() const;
+  /// Something came since the last call (to notice silence).
+  bool TakeActivity();
+
+ private:
+  void OnWindow(const window_state_t& message);
+  void OnMode(const tracker_mode_t& message);
+
+  Trajectory online_;
+  std::map<std::int64_t, StampedPose> window_;  // by keyframe number: those in the window
+  Trajectory left_;
+  std::vector<ModeChange> mode_changes_;
+  tracker_mode_t mode_{};
+  std::map<std::string, service_status_t> statuses_;
+  double solve_ms_ = 0;
+  bool active_ = false;
+};
+
+/// A STATUS counter by name; 0 where there is none.
+std::int64_t CounterOf(const service_status_t& status, const std::string& name);
+
+}  // namespace evit

@@ -1,0 +1,88 @@
+#include "tools/run/report_writer.h"
+
+#include <google/protobuf/util/json_util.h>
+
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+#include "common/evaluation/trajectory_error.h"
+
+namespace evit {
+namespace {
+
+constexpr double kDegrees = 57.295779513082323;
+
+void Fill(const TrajectoryError& error, report::Error* out) {
+  out->set_pairs(error.n_pairs);
+  out->set_position_rmse_cm(100 * error.position_rmse);
+  out->set_orientation_rmse_deg(kDegrees * error.orientation_rmse);
+  out->set_position_max_cm(100 * error.position_max);
+  out->set_orientation_max_deg(kDegrees * error.orientation_max);
+}
+
+const char* ModeName(int mode) {
+  static constexpr const char* kNames[] = {"BOOTSTRAPPING", "TRACKING", "LOST"};
+  return mode >= 0 && mode < 3 ? kNames[mode] : "?";
+}
+
+}  // namespace
+
+void FillFromRecorder(const Recorder& recorder, report::Report* report) {
+  report->set_keyframes(recorder.n_keyframes());
+  report->set_poses(static_cast<std::int64_t>(recorder.online().size()));
+  report->set_final_mode(recorder.n_keyframes() > 0 ? ModeName(recorder.mode().mode) : "no keyframe");
+  report->set_mean_solve_ms(recorder.mean_solve_ms());
+  const Utime first = recorder.mode_changes().empty() ? 0 : recorder.mode_changes().front().t;
+  for (const Recorder::ModeChange& change : recorder.mode_changes()) {
+    report::ModeChange* out = report->add_mode_changes();
+    out->set_seconds(ToSeconds(change.t - first));
+    out->set_mode(ModeName(change.mode));
+    out->set_reason(change.reason);
+  }
+  for (report::Service& service : *report->mutable_services()) {
+    const auto it = recorder.statuses().find(service.name());
+    if (it == recorder.statuses().end()) continue;
+    const service_status_t& status = it->second;
+    service.set_last_state(status.state);
+    service.set_granted_receive_buffer(status.granted_receive_buffer);
+    for (int k = 0; k < status.n_counters; ++k) {
+      (*service.mutable_counters())[status.counter_name[k]] = status.counter_value[k];
+    }
+    for (int k = 0; k < status.n_timings; ++k)
+      (*service.mutable_mean_ms())[status.timing_name[k]] = status.timing_ms[k];
+  }
+}
+
+void FillErrors(const Trajectory& truth, const Trajectory& estimate, report::Report* report) {
+  report->set_coverage(AbsoluteError(truth, estimate, Alignment::kNone).coverage);
+  for (const auto& [name, alignment] :
+       {std::pair("none", Alignment::kNone), std::pair("first pair", Alignment::kFirstPair),
+        std::pair("umeyama", Alignment::kUmeyama)}) {
+    report::Milestones* out = report->add_ate();
+    out->set_alignment(name);
+    Fill(AbsoluteError(truth, estimate, alignment), out->mutable_all());
+    const auto milestone = [&](double share) { return MilestoneError(truth, estimate, alignment, share); };
+    if (const auto e = milestone(0.3); e.n_pairs > 0) Fill(e, out->mutable_at_30_percent());
+    if (const auto e = milestone(0.5); e.n_pairs > 0) Fill(e, out->mutable_at_50_percent());
+    if (const auto e = milestone(1.0); e.n_pairs > 0) Fill(e, out->mutable_at_100_percent());
+  }
+}
+
+void WriteReport(const std::string& path, const report::Report& report) {
+  google::protobuf::util::JsonPrintOptions options;
+  options.add_whitespace = true;
+  options.preserve_proto_field_names = true;
+  std::string json;
+  const auto status = google::protobuf::util::MessageToJsonString(report, &json, options);
+  const std::string part = path + ".part";
+  std::ofstream file(part);
+  file << json;
+  file.close();
+  if (!status.ok() || !file || std::rename(part.c_str(), path.c_str()) != 0) {
+    std::remove(part.c_str());
+    throw std::runtime_error(path + ": cannot be written");
+  }
+}
+
+}  // namespace evit

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "tools/run/recorder.h"
+#include "tools/run/report.pb.h"
+
+namespace evit {
+
+/// Adds what the recorder heard: keyframes, modes, services' counters and stages.
+void FillFromRecorder(const Recorder& recorder, report::Report* report);
+
+/// Adds ATE in the three alignments and the milestones, and coverage.
+void FillErrors(const Trajectory& truth, const Trajectory& estimate, report::Report* report);
+
+/// Writes the report as JSON, atomically. Throws std::runtime_error naming the file.
+void WriteReport(const std::string& path, const report::Report& report);
+
+}  // namespace evit

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/geometry/se3.h"
+
+namespace evit {
+
+/// One run of the four services on a recorded log.
+struct RunJob {
+  std::string log, map, rig, config;  // files
+  std::string out;                    // folder for the results
+  std::string truth;                  // TUM file to score against; empty: none
+  std::optional<SE3> initial_pose;    // of the body in the map; else from `truth` at the start of the log
+  bool lossless = true;
+  double speed = 1;                                  // real-time mode
+  std::optional<std::pair<double, double>> seconds;  // part of the log
+  std::string lcm_url, prefix;
+  std::string command;  // for the report
+};
+
+/// Starts the services, waits for the end and writes trajectory.tum, smoothed.tum, report.json and
+/// trajectory.png into `out`. Returns 0 where it tracked to the end, 2 where it was LOST or never tracked.
+/// Throws std::runtime_error where it could not run: a file cannot be used, a service died.
+int Run(const RunJob& job);
+
+}  // namespace evit
