@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   evit::AddImportCommand(&app);
   evit::AddMapCommand(&app);
   evit::AddSimulateCommand(&app);
+  evit::AddRunCommand(&app);
   evit::AddEvalCommand(&app);
   try {
     app.parse(argc, argv);
