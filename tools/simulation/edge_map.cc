@@ -28,7 +28,7 @@ double NearestInverseDepth(const View& view, int width, int x, int y) {
   float nearest = centre;
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
-      nearest = std::max(nearest, view.inverse_depth[i + dy * width + dx]);
+      nearest = std::max(nearest, view.inverse_depth[i + static_cast<std::ptrdiff_t>(dy) * width + dx]);
     }
   }
   return nearest > 1.03F * centre ? nearest : centre;

@@ -1,6 +1,7 @@
 #include "tools/simulation/preview.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
@@ -18,7 +19,7 @@ Preview::Preview(const Renderer& renderer, const Rig& rig, const PoseSpline& mot
                  int count)
     : renderer_(renderer), rig_(rig), motion_(motion) {
   for (int i = 0; i < count; ++i)
-    instants_.push_back({begin + (2 * i + 1) * (end - begin) / (2 * count), {}});
+    instants_.push_back({begin + (2 * Utime{i} + 1) * (end - begin) / (2 * Utime{count}), {}});
 }
 
 void Preview::Add(const EventArray& events) {
@@ -53,7 +54,7 @@ void Preview::Write(const PointMap& map, const std::function<std::string(const s
       const Eigen::Vector3d local = T_camera_map * p.cast<double>();
       Eigen::Vector2d pixel;
       if (!camera.Project(local, &pixel) || !camera.Contains(pixel, 1)) continue;
-      const int x = static_cast<int>(pixel.x() + 0.5), y = static_cast<int>(pixel.y() + 0.5);
+      const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
       const float surface = view.inverse_depth[static_cast<std::size_t>(y) * camera.width + x];
       if (local.z() * surface > 1.08) continue;  // hidden
       overlay.at<cv::Vec3b>(y, x) = {0, 150, 0};

@@ -21,7 +21,7 @@ class Json {
   Json& Close() {
     --depth_;
     first_ = false;
-    text_ << '\n' << std::string(2 * depth_, ' ') << '}';
+    text_ << '\n' << Indent() << '}';
     return *this;
   }
   Json& Number(const std::string& key, double value) {
@@ -44,11 +44,12 @@ class Json {
  private:
   void Key(const std::string& key) {
     if (depth_ == 0) return;
-    text_ << (first_ ? "\n" : ",\n") << std::string(2 * depth_, ' ');
+    text_ << (first_ ? "\n" : ",\n") << Indent();
     first_ = false;
     Quote(key);
     text_ << ": ";
   }
+  std::string Indent() const { return std::string(static_cast<std::size_t>(depth_) * 2, ' '); }
   void Quote(const std::string& value) {
     text_ << '"';
     for (const char c : value) {

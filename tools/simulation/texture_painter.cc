@@ -59,6 +59,7 @@ void PaintShapes(const Canvas& c) {
     } else if (kind == 2) {
       const double angle = c.random->Uniform(0, 6.28);
       std::vector<cv::Point> corners;
+      corners.reserve(3);
       for (int k = 0; k < 3; ++k) {
         corners.emplace_back(a.x + static_cast<int>(1.3 * r * std::cos(angle + 2.1 * k)),
                              a.y + static_cast<int>(1.3 * r * std::sin(angle + 2.1 * k)));
