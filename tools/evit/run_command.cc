@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -22,6 +23,17 @@ SE3 ParsePose(const std::string& text) {
                              "\": seven numbers are wanted, x y z (m) and a unit quaternion qx qy qz qw");
   }
   return {q.normalized(), {v[0], v[1], v[2]}};
+}
+
+// This process's command line, as it could be typed again.
+std::string CommandLine() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::string line;
+  for (std::string word; std::getline(file, word, '\0');) {
+    const bool plain = !word.empty() && word.find_first_of(" \t\n\"'$*?;&|<>()\\") == std::string::npos;
+    line += (line.empty() ? "" : " ") + (plain ? word : "\"" + word + "\"");
+  }
+  return line;
 }
 
 }  // namespace
@@ -57,16 +69,17 @@ void AddRunCommand(CLI::App* app) {
                   "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
   run->add_option("--prefix", o->job.prefix, "Prefix of all channels, so that several pipelines share a bus");
   run->footer("Exit code: 0 tracked to the end, 1 could not run, 2 LOST or never tracking, 130 interrupted.");
-  run->callback([o, app] {
+  run->callback([o] {
     RunJob& job = o->job;
     if (o->pose.empty() && o->from.empty())
-      throw std::runtime_error("run: --initial-pose or --initial-from is wanted");
+      throw std::runtime_error("--initial-pose or --initial-from is wanted");
     if (!o->pose.empty()) job.initial_pose = ParsePose(o->pose);
+    job.initial_from = o->from;
     if (job.truth.empty()) job.truth = o->from;
     if (!o->seconds.empty()) job.seconds = ParseSeconds(o->seconds);
     if (job.config.empty()) job.config = ConfigFile("tracker.textproto");
     job.lossless = !o->realtime;
-    job.command = app->config_to_str();
+    job.command = CommandLine();
     const int code = Run(job);
     if (code != 0) throw CLI::RuntimeError(code);
   });

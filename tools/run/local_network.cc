@@ -1,6 +1,7 @@
 #include "tools/run/local_network.h"
 
 #include <arpa/inet.h>
+#include <linux/rtnetlink.h>
 #include <net/if.h>
 #include <net/route.h>
 #include <sched.h>
@@ -62,22 +63,47 @@ std::filesystem::path RunFolder() {
   const char* folder = std::getenv("XDG_RUNTIME_DIR");
   if (folder != nullptr && std::filesystem::is_directory(folder))
     return std::filesystem::path(folder) / "evit";
-  return std::filesystem::temp_directory_path() / ("evit-" + std::to_string(getuid()));
+  return std::filesystem::path("/tmp") / ("evit-" + std::to_string(getuid()));
 }
 
 // Whether the route to the group leads through lo: a group that is reached through a network card would send
-// out.
+// out. Asks the kernel (RTM_GETROUTE); the address a connected socket gets does not tell.
 bool StaysOnHost(const LcmUrl& url) {
-  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
-  sockaddr_in group{}, local{};
-  group.sin_family = AF_INET;
-  group.sin_port = htons(static_cast<std::uint16_t>(url.port));
-  socklen_t size = sizeof local;
-  const bool ok = inet_pton(AF_INET, url.group.c_str(), &group.sin_addr) == 1 &&
-                  connect(fd, reinterpret_cast<sockaddr*>(&group), sizeof group) == 0 &&
-                  getsockname(fd, reinterpret_cast<sockaddr*>(&local), &size) == 0;
+  struct {
+    nlmsghdr header;
+    rtmsg route;
+    rtattr destination;
+    in_addr group;
+  } request = {};
+  request.header.nlmsg_len = sizeof request;
+  request.header.nlmsg_type = RTM_GETROUTE;
+  request.header.nlmsg_flags = NLM_F_REQUEST;
+  request.route.rtm_family = AF_INET;
+  request.route.rtm_dst_len = 32;
+  request.destination.rta_type = RTA_DST;
+  request.destination.rta_len = RTA_LENGTH(sizeof request.group);
+  if (inet_pton(AF_INET, url.group.c_str(), &request.group) != 1) return false;
+  alignas(nlmsghdr) char answer[4096];
+  const int fd = socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE);
+  if (fd < 0) return false;
+  ssize_t n = -1;
+  if (send(fd, &request, sizeof request, 0) == static_cast<ssize_t>(sizeof request)) {
+    n = recv(fd, answer, sizeof answer, 0);
+  }
   close(fd);
-  return ok && (ntohl(local.sin_addr.s_addr) >> 24) == 127;
+  auto* header = reinterpret_cast<nlmsghdr*>(answer);
+  if (n < 0 || !NLMSG_OK(header, static_cast<std::size_t>(n)) || header->nlmsg_type != RTM_NEWROUTE) {
+    return false;  // no route at all
+  }
+  auto* route = static_cast<rtmsg*>(NLMSG_DATA(header));
+  int left = static_cast<int>(RTM_PAYLOAD(header));
+  for (rtattr* part = RTM_RTA(route); RTA_OK(part, left); part = RTA_NEXT(part, left)) {
+    int device = 0;
+    if (part->rta_type != RTA_OIF || RTA_PAYLOAD(part) != sizeof device) continue;
+    std::memcpy(&device, RTA_DATA(part), sizeof device);
+    return device == static_cast<int>(if_nametoindex("lo"));
+  }
+  return false;
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ struct RunJob {
   std::string log, map, rig, config;  // files
   std::string out;                    // folder for the results
   std::string truth;                  // TUM file to score against; empty: none
-  std::optional<SE3> initial_pose;    // of the body in the map; else from `truth` at the start of the log
+  std::optional<SE3> initial_pose;    // of the body in the map
+  std::string initial_from;           // else: TUM file to take it from, at the start of the log
   bool lossless = true;
   double speed = 1;                                  // real-time mode
   std::optional<std::pair<double, double>> seconds;  // part of the log

@@ -1,0 +1,89 @@
+#include "tools/run/local_network.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/bus/lcm_bus.h"
+#include "common/bus/lcm_url.h"
+
+namespace evit {
+namespace {
+
+constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
+
+// In a process of its own: a namespace cannot be left again. Its exit code.
+template <typename Body>
+int InChild(Body body) {
+  const pid_t child = fork();
+  if (child == 0) {
+    int code = 99;
+    try {
+      code = body();
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+    }
+    _exit(code);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::string Namespace() { return std::filesystem::read_symlink("/proc/self/ns/net").string(); }
+
+TEST(LocalNetwork, MulticastWorksAfterwardsAndStaysOnTheHost) {
+  EXPECT_EQ(InChild([] {
+              const std::string before = Namespace();
+              const bool made = EnsureLocalMulticast(kUrl);
+              if (made == (Namespace() == before)) return 1;
+              if (EnsureLocalMulticast(kUrl)) return 2;  // what is there is used
+              RequireMulticastRoute(ParseLcmUrl(kUrl));
+              const auto sender = OpenLcmBus(kUrl), receiver = OpenLcmBus(kUrl);
+              int received = 0;
+              receiver->Subscribe("LOCAL_NETWORK_TEST",
+                                  [&](const std::string&, const std::uint8_t*, std::size_t) { ++received; });
+              for (int k = 0; k < 50 && received == 0; ++k) {
+                sender->Publish("LOCAL_NETWORK_TEST", "x", 1);
+                receiver->Poll(100);
+              }
+              return received > 0 ? 0 : 3;
+            }),
+            0);
+}
+
+TEST(LocalNetwork, ChildrenInheritIt) {
+  EXPECT_EQ(InChild([] {
+              EnsureLocalMulticast(kUrl);
+              const std::string mine = Namespace();
+              return InChild([&] { return Namespace() == mine ? 0 : 1; });
+            }),
+            0);
+}
+
+TEST(LocalNetwork, OtherKindsOfBusAreLeftAlone) {
+  EXPECT_FALSE(EnsureLocalMulticast("memq://"));
+  EXPECT_FALSE(EnsureLocalMulticast("tcpq://127.0.0.1:7700"));
+}
+
+TEST(LocalNetwork, RunFileNamesThisProcessWhileItLives) {
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "run_file_test";
+  std::filesystem::create_directories(folder);
+  setenv("XDG_RUNTIME_DIR", folder.c_str(), 1);
+  const std::filesystem::path file = folder / "evit" / ("run-" + std::to_string(getpid()));
+  {
+    const RunFile run_file;
+    std::ifstream in(file);
+    int pid = 0;
+    in >> pid;
+    EXPECT_EQ(pid, getpid());
+  }
+  EXPECT_FALSE(std::filesystem::exists(file));
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace evit

@@ -1,0 +1,106 @@
+#include "tools/run/run_inputs.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "common/bus/codec.h"
+#include "common/bus/log_file.h"
+#include "common/config/config.h"
+#include "common/evaluation/decimal_time.h"
+#include "common/map/map_file.h"
+
+namespace evit {
+namespace {
+
+bool EndsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+// Sensor time of a message: logs of lcm-logger carry the host's clock.
+template <typename Message>
+Utime TimeOf(const LogReader& log, const LogEntry& entry, Utime otherwise) {
+  std::vector<std::uint8_t> bytes;
+  log.Read(entry, &bytes);
+  Message message;
+  return DecodeChecked(bytes.data(), bytes.size(), &message) ? message.utime : otherwise;
+}
+
+// Fills begin, end and n_events.
+void ReadSpan(const RunJob& job, RunInputs* inputs) {
+  const LogReader log(job.log);
+  const LogEntry *first_imu = nullptr, *last_imu = nullptr, *first_events = nullptr;
+  for (const LogEntry& entry : log.entries()) {
+    const std::string& channel = log.channel(entry);
+    if (EndsWith(channel, "EVENTS") && first_events == nullptr) first_events = &entry;
+    if (!EndsWith(channel, "IMU")) continue;
+    if (first_imu == nullptr) first_imu = &entry;
+    last_imu = &entry;
+  }
+  if (first_events == nullptr || first_imu == nullptr) {
+    throw std::runtime_error(job.log + ": holds no " + (first_imu == nullptr ? "IMU" : "EVENTS") +
+                             " messages; make it with `evit import`, or record both channels");
+  }
+  constexpr Utime kNever = std::numeric_limits<Utime>::max();
+  inputs->begin = std::min(TimeOf<imu_batch_t>(log, *first_imu, kNever),
+                           TimeOf<event_packet_t>(log, *first_events, kNever));
+  inputs->end = TimeOf<imu_batch_t>(log, *last_imu, -1);
+  const Utime log_to_sensor = inputs->end - last_imu->utime;
+  if (job.seconds) {
+    const Utime begin = inputs->begin;
+    inputs->begin = begin + static_cast<Utime>(1e6 * job.seconds->first);
+    inputs->end = std::min(inputs->end, begin + static_cast<Utime>(1e6 * job.seconds->second));
+  }
+  if (inputs->begin >= inputs->end) throw std::runtime_error(job.log + ": has nothing at --seconds");
+  // The number of events follows from a message's length: nothing else has to be read.
+  const std::int64_t bare = event_packet_t{}.getEncodedSize();
+  for (const LogEntry& entry : log.entries()) {
+    const Utime t = entry.utime + log_to_sensor;
+    if (!EndsWith(log.channel(entry), "EVENTS") || t < inputs->begin || t > inputs->end) continue;
+    inputs->n_events += std::max<std::int64_t>(0, (entry.size - bare) / 9);
+  }
+}
+
+SE3 StartPose(const RunJob& job, Utime begin) {
+  if (job.initial_pose) return *job.initial_pose;
+  const Trajectory truth = ReadTum(job.initial_from);
+  // The truth may begin a little later than the log.
+  SE3 pose;
+  for (Utime t = begin; t < begin + kMicrosPerSecond / 2; t += 1000) {
+    if (PoseAt(truth, t, &pose)) return pose;
+  }
+  throw std::runtime_error(job.initial_from + ": has no pose at the start of the log (" +
+                           DecimalSeconds(begin) + " s): are both of the same sequence?");
+}
+
+}  // namespace
+
+RunInputs PrepareRun(const RunJob& job) {
+  RunInputs inputs;
+  LoadRig(job.rig);
+  LoadTracker(job.config);
+  RequireMetres(Summarize(LoadMap(job.map).map), job.map);
+  ReadSpan(job, &inputs);
+  inputs.start = StartPose(job, inputs.begin);
+  if (!job.truth.empty()) {
+    for (const StampedPose& s : ReadTum(job.truth)) {
+      if (s.t >= inputs.begin && s.t <= inputs.end) inputs.truth.push_back(s);
+    }
+    if (inputs.truth.empty()) {
+      throw std::runtime_error(job.truth + ": has no pose in the log's time: are both of the same sequence?");
+    }
+  }
+  std::error_code error;
+  std::filesystem::create_directories(job.out, error);
+  if (error || access(job.out.c_str(), W_OK) != 0) {
+    throw std::runtime_error(job.out + ": is no folder that can be written" +
+                             (error ? " (" + error.message() + ")" : ""));
+  }
+  return inputs;
+}
+
+}  // namespace evit

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/evaluation/trajectory.h"
+#include "tools/run/run.h"
+
+namespace evit {
+
+/// What a run starts from, found before anything is started.
+struct RunInputs {
+  Utime begin = 0, end = 0;   // sensor time of the part that will be played
+  std::int64_t n_events = 0;  // in that part
+  SE3 start;                  // T_map_body at `begin`
+  Trajectory truth;           // of that part; empty: none
+};
+
+/// Reads and checks every file of `job`, then makes the folder job.out. Throws std::runtime_error naming file
+/// and remedy; nothing is written then.
+RunInputs PrepareRun(const RunJob& job);
+
+}  // namespace evit

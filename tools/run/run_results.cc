@@ -1,0 +1,130 @@
+#include "tools/run/run_results.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "tools/run/plot.h"
+#include "tools/run/report_writer.h"
+
+namespace evit {
+namespace {
+
+std::string ReadText(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// Only what was played counts: an interrupted run has seen a part.
+double PlayedSeconds(const RunInputs& inputs, const Recorder& recorder, const RunOutcome& outcome) {
+  const Utime end = outcome.ended == "finished" ? inputs.end : std::max(inputs.begin, recorder.mode().utime);
+  return ToSeconds(end - inputs.begin);
+}
+
+void Describe(const RunJob& job, const RunInputs& inputs, report::Report* report) {
+  char host[256] = "";
+  gethostname(host, sizeof host - 1);
+  report->set_command(job.command);
+  report->set_host(host);
+  report->set_rig(job.rig);
+  report->set_map(job.map);
+  report->set_log(job.log);
+  report->set_config(ReadText(job.config));
+  report->set_lossless(job.lossless);
+  report->set_events(inputs.n_events);
+  report->set_event_rate_per_s(static_cast<double>(inputs.n_events) / ToSeconds(inputs.end - inputs.begin));
+}
+
+// Rates and cost, once keyframes and services are in.
+void FillRates(const Pipeline& pipeline, const RunOutcome& outcome, report::Report* report) {
+  const double sequence = report->sequence_s();
+  report->set_ended(outcome.ended);
+  report->set_wall_s(outcome.wall_s);
+  report->set_real_time_factor(sequence / outcome.wall_s);
+  if (sequence > 0) report->set_keyframe_rate_hz(static_cast<double>(report->keyframes()) / sequence);
+  double cpu = 0;
+  for (const auto& child : pipeline.children()) cpu += child->cpu_seconds();
+  if (report->keyframes() > 0) {
+    report->set_cpu_ms_per_keyframe(1e3 * cpu / static_cast<double>(report->keyframes()));
+  }
+  report->set_map_server_restarts(pipeline.restarts());
+}
+
+std::string Title(const RunJob& job, const report::Report& report) {
+  const std::string name = std::filesystem::path(job.log).stem().string();
+  if (report.ate().empty()) return name;
+  const report::Error& all = report.ate(0).all();
+  char text[160];
+  std::snprintf(text, sizeof text,
+                ": ATE %.2f cm, %.2f deg (map frame, no alignment), %.0f %% of the sequence",
+                all.position_rmse_cm(), all.orientation_rmse_deg(), 100 * report.coverage());
+  return name + text;
+}
+
+std::int64_t Lost(const report::Report& report) {
+  std::int64_t lost = 0;
+  for (const report::Service& service : report.services()) {
+    for (const auto& [name, value] : service.counters()) {
+      const bool counts = name.size() > 5 && name.compare(name.size() - 5, 5, ".lost") == 0;
+      if (counts) lost += value;
+    }
+  }
+  return lost;
+}
+
+// Why there is no pose at all: what the services last said.
+std::string WhyNothing(const Recorder& recorder) {
+  std::string text = "no keyframe was tracked; the services say:";
+  for (const auto& [name, status] : recorder.statuses()) {
+    text += "\n  " + name + ": " + status.state + ": " + status.detail;
+  }
+  return text;
+}
+
+}  // namespace
+
+int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& recorder,
+                 const Pipeline& pipeline, const RunOutcome& outcome) {
+  report::Report report;
+  Describe(job, inputs, &report);
+  for (const auto& child : pipeline.children()) {
+    report::Service* service = report.add_services();
+    service->set_name(child->name());
+    service->set_cpu_s(child->cpu_seconds());
+    service->set_peak_memory_mb(child->peak_mb());
+  }
+  FillFromRecorder(recorder, &report);
+  report.set_sequence_s(PlayedSeconds(inputs, recorder, outcome));
+  FillRates(pipeline, outcome, &report);
+  const Trajectory& online = recorder.online();
+  if (!inputs.truth.empty() && !online.empty()) FillErrors(inputs.truth, online, &report);
+
+  WriteTum(job.out + "/trajectory.tum", online);
+  WriteTum(job.out + "/smoothed.tum", recorder.smoothed());
+  WriteReport(job.out + "/report.json", report);
+  const std::string title = Title(job, report);
+  PlotRun(job.out + "/trajectory.png", title, inputs.truth, online);
+
+  std::printf("%s\n", title.c_str());
+  std::printf("%lld keyframes (%.0f Hz), %.1f s in %.1f s: real-time factor %.2f; %.1f ms CPU per keyframe\n",
+              static_cast<long long>(report.keyframes()), report.keyframe_rate_hz(), report.sequence_s(),
+              report.wall_s(), report.real_time_factor(), report.cpu_ms_per_keyframe());
+  std::printf("%lld messages lost, map_server restarted %d times\n", static_cast<long long>(Lost(report)),
+              pipeline.restarts());
+  std::printf("results: %s/{trajectory.tum,smoothed.tum,report.json,trajectory.png}\n", job.out.c_str());
+  std::fflush(stdout);
+  if (report.keyframes() == 0 || report.final_mode() != "TRACKING") {
+    std::fprintf(stderr, "evit run: %s\n",
+                 report.keyframes() == 0
+                     ? WhyNothing(recorder).c_str()
+                     : (report.final_mode() + " at the end: " + recorder.mode().reason).c_str());
+    return 2;
+  }
+  return outcome.ended == "interrupted" ? 130 : 0;
+}
+
+}  // namespace evit

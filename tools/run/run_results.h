@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "tools/run/pipeline.h"
+#include "tools/run/recorder.h"
+#include "tools/run/run.h"
+#include "tools/run/run_inputs.h"
+
+namespace evit {
+
+/// How a run went, beside what the recorder heard.
+struct RunOutcome {
+  std::string ended;  // "finished" or "interrupted"
+  double wall_s = 0;
+};
+
+/// Writes trajectory.tum, smoothed.tum, report.json and trajectory.png into job.out and says in a few lines
+/// how the run went. Returns Run()'s exit code.
+int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& recorder,
+                 const Pipeline& pipeline, const RunOutcome& outcome);
+
+}  // namespace evit
