@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
+#include <utility>
 
 #include "common/map/occlusion.h"
 #include "common/map/visibility.h"
@@ -55,45 +55,56 @@ std::array<Eigen::Vector3d, 4> FrustumNormals(const Camera& camera, double margi
           Eigen::Vector3d(0, 1, -top).normalized(), Eigen::Vector3d(0, -1, bottom).normalized()};
 }
 
-// A seeded random subset of query.max_points, spread over the image: tiles take turns giving a point, each in
-// a random order of its own, so that a densely mapped spot does not eat the budget.
+// A seeded random subset of query.max_points, spread over the image: every tile may give the same number of
+// points, and those it gives are drawn at random, so that a densely mapped spot does not eat the budget.
 std::vector<std::int32_t> SpreadSubset(const std::vector<ProjectedPoint>& seen,
                                        const VisibilityQuery& query) {
-  struct Ranked {
-    std::int32_t tile;
-    std::uint64_t order;
-    std::int32_t id;
-  };
+  using Drawn = std::pair<std::uint64_t, std::int32_t>;  // random number, id
   const int columns = static_cast<int>((query.camera.width + 2 * query.margin_px) / kTile) + 2;
+  const int rows = static_cast<int>((query.camera.height + 2 * query.margin_px) / kTile) + 2;
+  const auto tile_of = [&](const ProjectedPoint& p) {
+    return static_cast<std::size_t>((p.pixel.y() + query.margin_px) / kTile) * columns +
+           static_cast<std::size_t>((p.pixel.x() + query.margin_px) / kTile);
+  };
+  std::vector<std::size_t> begin(static_cast<std::size_t>(columns) * rows + 1, 0);
+  for (const ProjectedPoint& p : seen) ++begin[tile_of(p) + 1];
+  // The quota is the largest with which the tiles together stay within the budget.
+  const auto budget = static_cast<std::size_t>(query.max_points);
+  const auto taken = [&](std::size_t quota) {
+    std::size_t sum = 0;
+    for (std::size_t t = 1; t < begin.size(); ++t) sum += std::min(begin[t], quota);
+    return sum;
+  };
+  std::size_t quota = 0, above = budget + 1;
+  while (above - quota > 1) {
+    const std::size_t middle = (quota + above) / 2;
+    (taken(middle) <= budget ? quota : above) = middle;
+  }
+  const std::size_t left =
+      budget - taken(quota);  // points that still fit: each from a tile with more than the quota
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+
+  std::vector<Drawn> drawn(seen.size());
+  std::vector<std::size_t> end(begin.begin(), begin.end() - 1);
   const std::uint64_t base = Mix(query.seed);
-  std::vector<Ranked> ranked;
-  ranked.reserve(seen.size());
   for (const ProjectedPoint& p : seen) {
-    const int column = static_cast<int>((p.pixel.x() + query.margin_px) / kTile);
-    const int row = static_cast<int>((p.pixel.y() + query.margin_px) / kTile);
-    ranked.push_back({row * columns + column, Mix(base ^ static_cast<std::uint64_t>(p.id)), p.id});
+    drawn[end[tile_of(p)]++] = {Mix(base ^ static_cast<std::uint64_t>(p.id)), p.id};
   }
-  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
-    return std::tie(a.tile, a.order, a.id) < std::tie(b.tile, b.order, b.id);
-  });
-  // Turn of each point within its tile, and how many points each turn takes.
-  std::vector<std::int32_t> turn(ranked.size()), per_turn;
-  for (std::size_t k = 0; k < ranked.size(); ++k) {
-    turn[k] = k > 0 && ranked[k].tile == ranked[k - 1].tile ? turn[k - 1] + 1 : 0;
-    if (static_cast<std::size_t>(turn[k]) >= per_turn.size()) per_turn.push_back(0);
-    ++per_turn[turn[k]];
-  }
-  std::int32_t last = 0, left = query.max_points;  // `left` points of turn `last` still fit
-  while (left >= per_turn[last]) left -= per_turn[last++];
   std::vector<std::int32_t> ids;
-  std::vector<std::pair<std::uint64_t, std::int32_t>> remainder;
-  ids.reserve(query.max_points);
-  for (std::size_t k = 0; k < ranked.size(); ++k) {
-    if (turn[k] < last) ids.push_back(ranked[k].id);
-    if (turn[k] == last) remainder.emplace_back(ranked[k].order, ranked[k].id);
+  std::vector<Drawn> next;  // each rich tile's first point beyond the quota
+  ids.reserve(budget);
+  for (std::size_t t = 0; t + 1 < begin.size(); ++t) {
+    const auto first = drawn.begin() + static_cast<std::ptrdiff_t>(begin[t]);
+    const auto last = drawn.begin() + static_cast<std::ptrdiff_t>(begin[t + 1]);
+    const auto stop = first + static_cast<std::ptrdiff_t>(std::min(quota, begin[t + 1] - begin[t]));
+    if (stop != last) {
+      std::nth_element(first, stop, last);
+      next.push_back(*stop);
+    }
+    for (auto k = first; k != stop; ++k) ids.push_back(k->second);
   }
-  std::nth_element(remainder.begin(), remainder.begin() + left, remainder.end());
-  for (std::int32_t k = 0; k < left; ++k) ids.push_back(remainder[k].second);
+  std::sort(next.begin(), next.end());
+  for (std::size_t k = 0; k < left; ++k) ids.push_back(next[k].second);
   return ids;
 }
 

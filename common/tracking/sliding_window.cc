@@ -22,17 +22,19 @@ ImuTerm SlidingWindow::Term(const WindowNode& node) const {
   return ImuTerm(node.imu.get(), gravity_, config_.imu_noise_factor());
 }
 
-StatePrior SlidingWindow::Eliminate(const StatePrior& prior, std::size_t n) const {
-  const WindowNode& i = nodes_[n];
-  const AlignmentTerm alignment =
-      EvaluateAlignment(alignment_, *i.field, 0, i.points, i.state.T_world_body, true);
-  return Marginalize(prior, alignment, Term(nodes_[n + 1]), i.state, nodes_[n + 1].state);
+AlignmentTerm SlidingWindow::Align(const WindowNode& node) const {
+  return EvaluateAlignment(alignment_, *node.field, 0, node.points, node.state.T_world_body, true);
+}
+
+StatePrior SlidingWindow::Eliminate(const StatePrior& prior, const AlignmentTerm& alignment,
+                                    std::size_t n) const {
+  return Marginalize(prior, alignment, Term(nodes_[n + 1]), nodes_[n].state, nodes_[n + 1].state);
 }
 
 std::optional<WindowNode> SlidingWindow::Push(WindowNode node) {
   std::optional<WindowNode> left;
   if (nodes_.size() >= static_cast<std::size_t>(config_.size())) {
-    if (config_.first_node() == config::Window::PRIOR) prior_ = Eliminate(prior_, 0);
+    if (config_.first_node() == config::Window::PRIOR) prior_ = Eliminate(prior_, Align(nodes_.front()), 0);
     left = std::move(nodes_.front());
     nodes_.pop_front();
   }
@@ -84,6 +86,10 @@ SlidingWindow::Summary SlidingWindow::Solve() {
     nodes_[n].state = FromBlocks(blocks[n]);
     nodes_[n].state.T_world_body.q.normalize();
   }
+  // Once per keyframe is enough: later moves of a node are far smaller than what would change its curvature.
+  for (WindowNode& node : nodes_) {
+    if (node.alignment.cost == 0) node.alignment = Align(node);
+  }
   if (nodes_.size() > 1) {
     result.imu_cost =
         0.5 * Term(nodes_.back())
@@ -97,11 +103,10 @@ Eigen::Matrix<double, 6, 6> SlidingWindow::NewestCovariance() const {
   StatePrior prior = prior_;
   if (config_.first_node() == config::Window::FIXED) prior.information = 1e12 * Matrix15d::Identity();
   prior.mean = nodes_.front().state;  // only the information matters here
-  for (std::size_t n = 0; n + 1 < nodes_.size(); ++n) prior = Eliminate(prior, n);
+  for (std::size_t n = 0; n + 1 < nodes_.size(); ++n) prior = Eliminate(prior, nodes_[n].alignment, n);
   const WindowNode& newest = nodes_.back();
   Matrix15d information = prior.information;
-  information.topLeftCorner<6, 6>() +=
-      EvaluateAlignment(alignment_, *newest.field, 0, newest.points, newest.state.T_world_body, true).hessian;
+  information.topLeftCorner<6, 6>() += newest.alignment.hessian;
   const Matrix15d ridge = 1e-9 * Matrix15d(information.diagonal().cwiseMax(1e-9).asDiagonal());
   const Matrix15d covariance = (information + ridge).ldlt().solve(Matrix15d::Identity());
   return 0.5 * (covariance.topLeftCorner<6, 6>() + covariance.topLeftCorner<6, 6>().transpose());

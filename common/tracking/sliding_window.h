@@ -17,6 +17,7 @@ struct WindowNode {
   std::shared_ptr<const SurfaceField> field;
   std::vector<Eigen::Vector3f> points;  // of the map, in view of this keyframe
   std::shared_ptr<Preintegration> imu;  // from the previous node to this one; unused in the oldest
+  AlignmentTerm alignment = {};         // as of its first solve; cost 0: not yet known
 };
 
 /// Joint optimisation of the last N keyframes (paper Sec. III-D): event alignment in each, IMU terms between
@@ -49,7 +50,8 @@ class SlidingWindow {
  private:
   ImuTerm Term(const WindowNode& node) const;
   /// Prior on nodes_[n + 1] from everything up to nodes_[n], given the prior on nodes_[n].
-  StatePrior Eliminate(const StatePrior& prior, std::size_t n) const;
+  StatePrior Eliminate(const StatePrior& prior, const AlignmentTerm& alignment, std::size_t n) const;
+  AlignmentTerm Align(const WindowNode& node) const;
 
   AlignmentSettings alignment_;
   double gravity_;

@@ -29,6 +29,8 @@ class SurfaceField {
   };
   /// At pixel (x, y) of level 0. Outside the image the nearest border value counts, with no gradient across.
   Sample At(int level, double x, double y) const;
+  /// The value alone, at half the cost.
+  float ValueAt(int level, double x, double y) const;
 
   /// Mean value of the whole field, 0..255: what a point placed at random meets.
   double mean() const { return mean_; }
