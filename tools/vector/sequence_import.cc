@@ -117,8 +117,16 @@ ImportSummary ImportSequence(const SequenceImport& job, const std::function<void
     writer.Close(std::max(last, imu.back().t));
     summary.n_packets = writer.n_packets();
   }
-  if (!truth.empty()) WriteTum(truth_out, truth);
-  if (std::rename(part.path.c_str(), out.c_str()) != 0) throw std::runtime_error(out + ": cannot be written");
+  // Truth of an earlier import must not stay beside a log that has none.
+  if (truth.empty()) {
+    std::remove(truth_out.c_str());
+  } else {
+    WriteTum(truth_out, truth);
+  }
+  if (std::rename(part.path.c_str(), out.c_str()) != 0) {
+    std::remove(truth_out.c_str());
+    throw std::runtime_error(out + ": cannot be written");
+  }
   part.kept = true;
   summary.n_imu = static_cast<std::int64_t>(imu.size());
   summary.n_truth = static_cast<std::int64_t>(truth.size());
