@@ -6,7 +6,9 @@
 #include "tools/evit/commands.h"
 #include "tools/evit/simulate_command.h"
 
-int main(int argc, char** argv) {
+namespace {
+
+int Main(int argc, char** argv) {
   CLI::App app{
       "EVIT: tracks an event camera and an IMU in 6-DoF against a semi-dense map.\n"
       "A first run: evit simulate, evit import vector, evit run; see README.md."};
@@ -27,4 +29,15 @@ int main(int argc, char** argv) {
     return 1;
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return Main(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "evit: error: %s\n", error.what());
+    return 1;
+  }
 }

@@ -30,8 +30,9 @@ void Pipeline::Watch() {
       child.Start();
       continue;
     }
+    const std::string words = child.LastWords();
     throw std::runtime_error(child.name() + " died with " + child.end() +
-                             "; its last words:" + child.LastWords());
+                             (words.empty() ? ", without a word" : "; its last words:" + words));
   }
 }
 

@@ -29,8 +29,8 @@ const char* ModeName(int mode) {
 }  // namespace
 
 void FillFromRecorder(const Recorder& recorder, report::Report* report) {
-  report->set_keyframes(recorder.n_keyframes());
-  report->set_poses(static_cast<std::int64_t>(recorder.online().size()));
+  report->set_keyframes(static_cast<std::int32_t>(recorder.n_keyframes()));
+  report->set_poses(static_cast<std::int32_t>(recorder.online().size()));
   report->set_final_mode(recorder.n_keyframes() > 0 ? ModeName(recorder.mode().mode) : "no keyframe");
   report->set_mean_solve_ms(recorder.mean_solve_ms());
   const Utime first = recorder.mode_changes().empty() ? 0 : recorder.mode_changes().front().t;
@@ -47,7 +47,7 @@ void FillFromRecorder(const Recorder& recorder, report::Report* report) {
     service.set_last_state(status.state);
     service.set_granted_receive_buffer(status.granted_receive_buffer);
     for (int k = 0; k < status.n_counters; ++k) {
-      (*service.mutable_counters())[status.counter_name[k]] = status.counter_value[k];
+      (*service.mutable_counters())[status.counter_name[k]] = static_cast<double>(status.counter_value[k]);
     }
     for (int k = 0; k < status.n_timings; ++k)
       (*service.mutable_mean_ms())[status.timing_name[k]] = status.timing_ms[k];
@@ -73,6 +73,7 @@ void WriteReport(const std::string& path, const report::Report& report) {
   google::protobuf::util::JsonPrintOptions options;
   options.add_whitespace = true;
   options.preserve_proto_field_names = true;
+  options.always_print_primitive_fields = true;  // a reader need not know that 0 is left out
   std::string json;
   const auto status = google::protobuf::util::MessageToJsonString(report, &json, options);
   const std::string part = path + ".part";

@@ -33,6 +33,10 @@ Utime TimeOf(const LogReader& log, const LogEntry& entry, Utime otherwise) {
 // Fills begin, end and n_events.
 void ReadSpan(const RunJob& job, RunInputs* inputs) {
   const LogReader log(job.log);
+  if (log.trailing_bytes() > 0) {
+    throw std::runtime_error(job.log + ": is cut off or damaged after " +
+                             std::to_string(log.entries().size()) + " whole messages; make it again");
+  }
   const LogEntry *first_imu = nullptr, *last_imu = nullptr, *first_events = nullptr;
   for (const LogEntry& entry : log.entries()) {
     const std::string& channel = log.channel(entry);
@@ -99,6 +103,10 @@ RunInputs PrepareRun(const RunJob& job) {
   if (error || access(job.out.c_str(), W_OK) != 0) {
     throw std::runtime_error(job.out + ": is no folder that can be written" +
                              (error ? " (" + error.message() + ")" : ""));
+  }
+  // Results of an earlier run must not pass for this one's.
+  for (const char* name : {"trajectory.tum", "smoothed.tum", "report.json", "trajectory.png"}) {
+    std::filesystem::remove(std::filesystem::path(job.out) / name, error);
   }
   return inputs;
 }

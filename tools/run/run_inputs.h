@@ -15,8 +15,8 @@ struct RunInputs {
   Trajectory truth;           // of that part; empty: none
 };
 
-/// Reads and checks every file of `job`, then makes the folder job.out. Throws std::runtime_error naming file
-/// and remedy; nothing is written then.
+/// Reads and checks every file of `job`, then makes the folder job.out and removes the results of an earlier
+/// run from it. Throws std::runtime_error naming file and remedy; nothing is written then.
 RunInputs PrepareRun(const RunJob& job);
 
 }  // namespace evit

@@ -35,7 +35,7 @@ void Describe(const RunJob& job, const RunInputs& inputs, report::Report* report
   report->set_log(job.log);
   report->set_config(ReadText(job.config));
   report->set_lossless(job.lossless);
-  report->set_events(inputs.n_events);
+  report->set_events(static_cast<double>(inputs.n_events));
   report->set_event_rate_per_s(static_cast<double>(inputs.n_events) / ToSeconds(inputs.end - inputs.begin));
 }
 
@@ -55,7 +55,7 @@ void FillRates(const Pipeline& pipeline, const RunOutcome& outcome, report::Repo
 }
 
 std::string Title(const RunJob& job, const report::Report& report) {
-  const std::string name = std::filesystem::path(job.log).stem().string();
+  std::string name = std::filesystem::path(job.log).stem().string();
   if (report.ate().empty()) return name;
   const report::Error& all = report.ate(0).all();
   char text[160];
@@ -65,12 +65,15 @@ std::string Title(const RunJob& job, const report::Report& report) {
   return name + text;
 }
 
-std::int64_t Lost(const report::Report& report) {
-  std::int64_t lost = 0;
+// Messages that a service noticed missing or had no time for.
+double Lost(const report::Report& report) {
+  const auto ends = [](const std::string& name, const std::string& end) {
+    return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+  };
+  double lost = 0;
   for (const report::Service& service : report.services()) {
     for (const auto& [name, value] : service.counters()) {
-      const bool counts = name.size() > 5 && name.compare(name.size() - 5, 5, ".lost") == 0;
-      if (counts) lost += value;
+      if (name != "mode.lost" && (ends(name, ".lost") || ends(name, ".dropped"))) lost += value;
     }
   }
   return lost;
@@ -110,11 +113,10 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
   PlotRun(job.out + "/trajectory.png", title, inputs.truth, online);
 
   std::printf("%s\n", title.c_str());
-  std::printf("%lld keyframes (%.0f Hz), %.1f s in %.1f s: real-time factor %.2f; %.1f ms CPU per keyframe\n",
-              static_cast<long long>(report.keyframes()), report.keyframe_rate_hz(), report.sequence_s(),
-              report.wall_s(), report.real_time_factor(), report.cpu_ms_per_keyframe());
-  std::printf("%lld messages lost, map_server restarted %d times\n", static_cast<long long>(Lost(report)),
-              pipeline.restarts());
+  std::printf("%d keyframes (%.0f Hz), %.1f s in %.1f s: real-time factor %.2f; %.1f ms CPU per keyframe\n",
+              report.keyframes(), report.keyframe_rate_hz(), report.sequence_s(), report.wall_s(),
+              report.real_time_factor(), report.cpu_ms_per_keyframe());
+  std::printf("%.0f messages lost, map_server restarted %d times\n", Lost(report), pipeline.restarts());
   std::printf("results: %s/{trajectory.tum,smoothed.tum,report.json,trajectory.png}\n", job.out.c_str());
   std::fflush(stdout);
   if (report.keyframes() == 0 || report.final_mode() != "TRACKING") {

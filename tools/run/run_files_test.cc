@@ -1,0 +1,193 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "common/bus/log_file.h"
+#include "common/bus/sample_messages.h"
+#include "common/map/map_file.h"
+#include "tools/run/plot.h"
+#include "tools/run/report_writer.h"
+#include "tools/run/run_inputs.h"
+
+namespace evit {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+constexpr Utime kStart = 1'642'661'138'000'000;
+
+// A second of a log (IMU every 10 ms, 30 events every 10 ms), its truth, and a map of a wall.
+class RunFilesTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(::testing::TempDir()) / ("run_files_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+    job_.log = Path("a.lcmlog");
+    job_.map = Path("map.pcd");
+    job_.rig = std::string(EVIT_SOURCE_DIR) + "/config/vector/rig.textproto";
+    job_.config = std::string(EVIT_SOURCE_DIR) + "/config/tracker.textproto";
+    job_.out = Path("out");
+    job_.truth = job_.initial_from = Path("truth.tum");
+    WriteLog(0);
+    Trajectory truth;
+    for (int k = 0; k <= 100; ++k) truth.push_back({kStart + 10'000 * k, At(k)});
+    WriteTum(job_.truth, truth);
+    PointMap map;
+    for (int k = 0; k < 400; ++k) map.points.emplace_back(0.1F * (k / 20), 0.1F * (k % 20), 2);
+    WritePcd(job_.map, map);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  static SE3 At(int k) { return {Eigen::Quaterniond::Identity(), {0.01 * k, 0, 1}}; }
+  std::string Path(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// `shift`: of the log's own clock against the sensor's, us, as in lcm-logger's logs.
+  void WriteLog(Utime shift) const {
+    LogWriter log(job_.log);
+    std::vector<std::uint8_t> bytes;
+    for (int k = 0; k <= 100; ++k) {
+      auto imu = Sample<imu_batch_t>(1);
+      imu.seq = k;
+      imu.utime = imu.sample_utime[0] = kStart + 10'000 * k;
+      EncodeTo(imu, &bytes);
+      log.Write(imu.utime + shift, "IMU", bytes.data(), bytes.size());
+      auto events = Sample<event_packet_t>(30);
+      events.seq = k;
+      events.utime = imu.utime;
+      EncodeTo(events, &bytes);
+      log.Write(imu.utime + shift, "EVENTS", bytes.data(), bytes.size());
+    }
+    log.Close();
+  }
+  void ExpectRefused(const ::testing::Matcher<std::string>& message) const {
+    EXPECT_THAT([&] { PrepareRun(job_); }, ThrowsMessage<std::runtime_error>(message));
+    EXPECT_FALSE(std::filesystem::exists(job_.out));  // nothing half-written
+  }
+
+  std::filesystem::path folder_;
+  RunJob job_;
+};
+
+TEST_F(RunFilesTest, SpanEventsStartAndTruth) {
+  const RunInputs inputs = PrepareRun(job_);
+  EXPECT_EQ(inputs.begin, kStart);
+  EXPECT_EQ(inputs.end, kStart + 1'000'000);
+  EXPECT_EQ(inputs.n_events, 101 * 30);
+  EXPECT_EQ(inputs.truth.size(), 101U);
+  EXPECT_TRUE(inputs.start.p.isApprox(At(0).p));
+  EXPECT_TRUE(std::filesystem::is_directory(job_.out));
+}
+
+TEST_F(RunFilesTest, PartOfTheLogBeginsWhereTheTruthIsThen) {
+  job_.seconds = {0.2, 0.6};
+  const RunInputs inputs = PrepareRun(job_);
+  EXPECT_EQ(inputs.begin, kStart + 200'000);
+  EXPECT_EQ(inputs.end, kStart + 600'000);
+  EXPECT_EQ(inputs.n_events, 41 * 30);
+  EXPECT_EQ(inputs.truth.size(), 41U);
+  EXPECT_TRUE(inputs.start.p.isApprox(At(20).p));
+}
+
+TEST_F(RunFilesTest, LogsStampedByTheHostCountInSensorTime) {
+  WriteLog(50'000'000'000);
+  const RunInputs inputs = PrepareRun(job_);
+  EXPECT_EQ(inputs.begin, kStart);
+  EXPECT_EQ(inputs.end, kStart + 1'000'000);
+  EXPECT_EQ(inputs.n_events, 101 * 30);
+}
+
+TEST_F(RunFilesTest, GivenPoseNeedsNoTruth) {
+  job_.initial_pose = At(7);
+  job_.initial_from = job_.truth = "";
+  const RunInputs inputs = PrepareRun(job_);
+  EXPECT_TRUE(inputs.start.p.isApprox(At(7).p));
+  EXPECT_TRUE(inputs.truth.empty());
+}
+
+TEST_F(RunFilesTest, OldResultsGo) {
+  std::filesystem::create_directories(job_.out);
+  std::ofstream(job_.out + "/trajectory.tum") << "old";
+  std::ofstream(job_.out + "/mine.txt") << "kept";
+  PrepareRun(job_);
+  EXPECT_FALSE(std::filesystem::exists(job_.out + "/trajectory.tum"));
+  EXPECT_TRUE(std::filesystem::exists(job_.out + "/mine.txt"));
+}
+
+TEST_F(RunFilesTest, EachUnusableFileIsNamedBeforeAnythingIsWritten) {
+  const RunJob good = job_;
+  for (std::string RunJob::*file :
+       {&RunJob::log, &RunJob::map, &RunJob::rig, &RunJob::config, &RunJob::initial_from, &RunJob::truth}) {
+    job_ = good;
+    job_.*file = Path("none");
+    ExpectRefused(HasSubstr(Path("none")));
+  }
+  job_ = good;
+  std::ofstream(job_.map) << "";
+  ExpectRefused(HasSubstr("map.pcd"));
+}
+
+TEST_F(RunFilesTest, CutLogIsRefused) {
+  std::filesystem::resize_file(job_.log, std::filesystem::file_size(job_.log) - 5);
+  ExpectRefused(AllOf(HasSubstr("a.lcmlog"), HasSubstr("cut off")));
+}
+
+TEST_F(RunFilesTest, TruthOfAnotherTimeIsRefused) {
+  WriteTum(job_.truth, {{5'000'000, At(0)}, {6'000'000, At(1)}});
+  ExpectRefused(HasSubstr("same sequence"));
+}
+
+TEST_F(RunFilesTest, UnwritableOutputIsNamed) {
+  std::ofstream(Path("file")) << "";
+  job_.out = Path("file") + "/out";
+  EXPECT_THAT([&] { PrepareRun(job_); }, ThrowsMessage<std::runtime_error>(HasSubstr("file/out")));
+}
+
+TEST_F(RunFilesTest, ReportSaysWhatTheErrorsAre) {
+  Trajectory truth, estimate;
+  for (int k = 0; k <= 100; ++k) truth.push_back({kStart + 10'000 * k, At(k)});
+  for (int k = 10; k <= 60; ++k) {
+    SE3 pose = At(k);
+    pose.p.y() += 0.02;
+    estimate.push_back({kStart + 10'000 * k, pose});
+  }
+  report::Report report;
+  report.set_lossless(true);
+  FillErrors(truth, estimate, &report);
+  WriteReport(Path("report.json"), report);
+  nlohmann::json json;
+  std::ifstream(Path("report.json")) >> json;
+  EXPECT_EQ(json["lossless"], true);
+  EXPECT_EQ(json["ate"][0]["alignment"], "none");
+  EXPECT_NEAR(json["ate"][0]["all"]["position_rmse_cm"], 2, 1e-6);
+  EXPECT_EQ(json["ate"][1]["alignment"], "first pair");
+  EXPECT_NEAR(json["ate"][1]["all"]["position_rmse_cm"], 0, 1e-6);
+  EXPECT_TRUE(json["ate"][0].contains("at_50_percent"));
+  EXPECT_FALSE(json["ate"][0].contains("at_100_percent"));  // not reached
+  EXPECT_THAT([&] { WriteReport(Path("no/report.json"), report); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("no/report.json")));
+}
+
+TEST_F(RunFilesTest, PlotsWithAndWithoutTruthOrPoses) {
+  Trajectory truth;
+  for (int k = 0; k <= 100; ++k) truth.push_back({kStart + 10'000 * k, At(k)});
+  for (const auto& [a, b] : {std::pair(truth, truth), std::pair(Trajectory(), truth),
+                             std::pair(truth, Trajectory()), std::pair(Trajectory(), Trajectory())}) {
+    PlotRun(Path("plot.png"), "title", a, b);
+    const cv::Mat image = cv::imread(Path("plot.png"));
+    EXPECT_GT(image.cols, 1000);
+    // Blue, the colour of the path and of z, shows where and only where there are poses.
+    cv::Mat blue;
+    cv::inRange(image, cv::Scalar(190, 110, 30), cv::Scalar(190, 110, 30), blue);
+    EXPECT_EQ(cv::countNonZero(blue) > 500, !b.empty());
+  }
+}
+
+}  // namespace
+}  // namespace evit
