@@ -5,6 +5,7 @@
 #include <net/if.h>
 #include <net/route.h>
 #include <sched.h>
+#include <signal.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -123,6 +124,12 @@ bool EnsureLocalMulticast(const std::string& url) {
 RunFile::RunFile() {
   std::error_code ignored;  // only convenience hangs on this file
   std::filesystem::create_directories(RunFolder(), ignored);
+  // Processes that were killed left theirs.
+  for (const auto& entry : std::filesystem::directory_iterator(RunFolder(), ignored)) {
+    pid_t pid = 0;
+    std::ifstream(entry.path()) >> pid;
+    if (pid > 0 && kill(pid, 0) != 0 && errno == ESRCH) std::filesystem::remove(entry.path(), ignored);
+  }
   path_ = (RunFolder() / ("run-" + std::to_string(getpid()))).string();
   std::ofstream(path_) << getpid() << '\n';
 }

@@ -74,8 +74,15 @@ TEST(LocalNetwork, RunFileNamesThisProcessWhileItLives) {
   std::filesystem::create_directories(folder);
   setenv("XDG_RUNTIME_DIR", folder.c_str(), 1);
   const std::filesystem::path file = folder / "evit" / ("run-" + std::to_string(getpid()));
+  const pid_t dead = fork();
+  if (dead == 0) _exit(0);
+  waitpid(dead, nullptr, 0);
+  const std::filesystem::path left = folder / "evit" / ("run-" + std::to_string(dead));
+  std::filesystem::create_directories(left.parent_path());
+  std::ofstream(left) << dead;
   {
     const RunFile run_file;
+    EXPECT_FALSE(std::filesystem::exists(left));
     std::ifstream in(file);
     int pid = 0;
     in >> pid;
