@@ -56,13 +56,12 @@ void FillFromRecorder(const Recorder& recorder, report::Report* report) {
 
 void FillErrors(const Trajectory& truth, const Trajectory& estimate, report::Report* report) {
   report->set_coverage(AbsoluteError(truth, estimate, Alignment::kNone).coverage);
-  for (const auto& [name, alignment] :
-       {std::pair("none", Alignment::kNone), std::pair("first pair", Alignment::kFirstPair),
-        std::pair("umeyama", Alignment::kUmeyama)}) {
+  for (const auto& row : {std::pair("none", Alignment::kNone), std::pair("first pair", Alignment::kFirstPair),
+                          std::pair("umeyama", Alignment::kUmeyama)}) {
     report::Milestones* out = report->add_ate();
-    out->set_alignment(name);
-    Fill(AbsoluteError(truth, estimate, alignment), out->mutable_all());
-    const auto milestone = [&](double share) { return MilestoneError(truth, estimate, alignment, share); };
+    out->set_alignment(row.first);
+    Fill(AbsoluteError(truth, estimate, row.second), out->mutable_all());
+    const auto milestone = [&](double share) { return MilestoneError(truth, estimate, row.second, share); };
     if (const auto e = milestone(0.3); e.n_pairs > 0) Fill(e, out->mutable_at_30_percent());
     if (const auto e = milestone(0.5); e.n_pairs > 0) Fill(e, out->mutable_at_50_percent());
     if (const auto e = milestone(1.0); e.n_pairs > 0) Fill(e, out->mutable_at_100_percent());

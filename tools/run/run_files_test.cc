@@ -37,10 +37,12 @@ class RunFilesTest : public ::testing::Test {
     job_.truth = job_.initial_from = Path("truth.tum");
     WriteLog(0);
     Trajectory truth;
-    for (int k = 0; k <= 100; ++k) truth.push_back({kStart + 10'000 * k, At(k)});
+    for (int k = 0; k <= 100; ++k) truth.push_back({kStart + Utime{10'000} * k, At(k)});
     WriteTum(job_.truth, truth);
     PointMap map;
-    for (int k = 0; k < 400; ++k) map.points.emplace_back(0.1F * (k / 20), 0.1F * (k % 20), 2);
+    for (int row = 0; row < 20; ++row) {
+      for (int k = 0; k < 20; ++k) map.points.emplace_back(0.1 * k, 0.1 * row, 2);
+    }
     WritePcd(job_.map, map);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
@@ -55,7 +57,7 @@ class RunFilesTest : public ::testing::Test {
     for (int k = 0; k <= 100; ++k) {
       auto imu = Sample<imu_batch_t>(1);
       imu.seq = k;
-      imu.utime = imu.sample_utime[0] = kStart + 10'000 * k;
+      imu.utime = imu.sample_utime[0] = kStart + Utime{10'000} * k;
       EncodeTo(imu, &bytes);
       log.Write(imu.utime + shift, "IMU", bytes.data(), bytes.size());
       auto events = Sample<event_packet_t>(30);
@@ -151,11 +153,11 @@ TEST_F(RunFilesTest, UnwritableOutputIsNamed) {
 
 TEST_F(RunFilesTest, ReportSaysWhatTheErrorsAre) {
   Trajectory truth, estimate;
-  for (int k = 0; k <= 100; ++k) truth.push_back({kStart + 10'000 * k, At(k)});
+  for (int k = 0; k <= 100; ++k) truth.push_back({kStart + Utime{10'000} * k, At(k)});
   for (int k = 10; k <= 60; ++k) {
     SE3 pose = At(k);
     pose.p.y() += 0.02;
-    estimate.push_back({kStart + 10'000 * k, pose});
+    estimate.push_back({kStart + Utime{10'000} * k, pose});
   }
   report::Report report;
   report.set_lossless(true);
@@ -176,7 +178,7 @@ TEST_F(RunFilesTest, ReportSaysWhatTheErrorsAre) {
 
 TEST_F(RunFilesTest, PlotsWithAndWithoutTruthOrPoses) {
   Trajectory truth;
-  for (int k = 0; k <= 100; ++k) truth.push_back({kStart + 10'000 * k, At(k)});
+  for (int k = 0; k <= 100; ++k) truth.push_back({kStart + Utime{10'000} * k, At(k)});
   for (const auto& [a, b] : {std::pair(truth, truth), std::pair(Trajectory(), truth),
                              std::pair(truth, Trajectory()), std::pair(Trajectory(), Trajectory())}) {
     PlotRun(Path("plot.png"), "title", a, b);

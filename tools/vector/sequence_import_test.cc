@@ -46,12 +46,12 @@ class SequenceImportTest : public ::testing::Test {
     std::ofstream imu(In("imu.txt"));
     imu << "# one\n# two\n# timestamp gx gy gz ax ay az qx qy qz qw\n";
     for (int k = 0; k < 200; ++k) {
-      imu << DecimalSeconds(kStart + 5000 * k) << ' ' << k << " 2 3 4 5 9.81 0 0 0 1\n";
+      imu << DecimalSeconds(kStart + Utime{5000} * k) << ' ' << k << " 2 3 4 5 9.81 0 0 0 1\n";
     }
     std::ofstream truth(In("gt.txt"));
     truth << "# one\n# two\n";
     for (int k = 0; k < 100; ++k) {
-      const StampedPose pose{kStart + 10'000 * k, {Eigen::Quaterniond::Identity(), {0.01 * k, 1, 2}}};
+      const StampedPose pose{kStart + Utime{10'000} * k, {Eigen::Quaterniond::Identity(), {0.01 * k, 1, 2}}};
       truth << TumLine(pose) << '\n';
     }
     job_.folder = (folder_ / "in").string();
@@ -131,7 +131,7 @@ TEST_F(SequenceImportTest, ImuSamplesOneByOneInFullPrecision) {
     const auto m = Decode<imu_batch_t>(log, entry);
     ASSERT_EQ(m.n, 1);
     EXPECT_EQ(m.seq, n);
-    EXPECT_EQ(m.sample_utime[0], kStart + 5000 * n);
+    EXPECT_EQ(m.sample_utime[0], kStart + Utime{5000} * n);
     EXPECT_EQ(entry.utime, m.utime);
     EXPECT_EQ(m.gyro[0], (std::vector<double>{1.0 * n, 2, 3}));
     EXPECT_EQ(m.accel[0], (std::vector<double>{4, 5, 9.81}));
