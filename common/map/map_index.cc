@@ -11,8 +11,9 @@
 namespace evit {
 namespace {
 
-constexpr float kCell = 0.25F;  // m: a cell's bounding sphere is small against the view, yet cells are few
-constexpr int kTile = 32;       // pixels: the subset is drawn evenly from tiles of this size
+constexpr float kCell = 0.25F;     // m: a cell's bounding sphere is small against the view, yet cells are few
+constexpr float kFarthest = 1e9F;  // cells: strays beyond share the last one, whose index an int still holds
+constexpr int kTile = 32;          // pixels: the subset is drawn evenly from tiles of this size
 
 struct Cell {
   Eigen::Vector3f center;
@@ -34,13 +35,16 @@ std::array<Eigen::Vector3d, 4> FrustumNormals(const Camera& camera, double margi
   double left = 0, right = 0, top = 0, bottom = 0;
   const double x0 = -margin, x1 = camera.width - 1 + margin, y0 = -margin, y1 = camera.height - 1 + margin;
   constexpr int kSteps = 16;
+  constexpr double kBulge = 1.02;
   bool complete = true;
   for (int k = 0; k <= kSteps; ++k) {
     const double x = x0 + (x1 - x0) * k / kSteps, y = y0 + (y1 - y0) * k / kSteps;
     for (const Eigen::Vector2d& border :
          {Eigen::Vector2d(x, y0), Eigen::Vector2d(x, y1), Eigen::Vector2d(x0, y), Eigen::Vector2d(x1, y)}) {
       Eigen::Vector3d ray;
-      if (!camera.Unproject(border, &ray)) {
+      Eigen::Vector2d back;
+      // A lens model has rays beyond its monotonic radius that come back to the same pixel: none of those.
+      if (!camera.Unproject(border, &ray) || !camera.Project(ray, &back)) {
         complete = false;  // the margin reaches beyond what the lens model can invert: no culling by planes
         continue;
       }
@@ -51,6 +55,8 @@ std::array<Eigen::Vector3d, 4> FrustumNormals(const Camera& camera, double margi
   if (!complete)
     return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
             Eigen::Vector3d::Zero()};
+  // The border may bulge a little between the samples.
+  left *= kBulge, right *= kBulge, top *= kBulge, bottom *= kBulge;
   return {Eigen::Vector3d(1, 0, -left).normalized(), Eigen::Vector3d(-1, 0, right).normalized(),
           Eigen::Vector3d(0, 1, -top).normalized(), Eigen::Vector3d(0, -1, bottom).normalized()};
 }
@@ -122,7 +128,7 @@ MapIndex::MapIndex(PointMap map) : impl_(std::make_unique<Impl>()) {
   m.map = std::move(map);
   const auto& points = m.map.points;
   const auto key = [&](std::int32_t k) -> std::array<std::int32_t, 3> {
-    const Eigen::Vector3f c = (points[k] / kCell).array().floor();
+    const Eigen::Vector3f c = (points[k] / kCell).array().floor().max(-kFarthest).min(kFarthest);
     return {static_cast<std::int32_t>(c.x()), static_cast<std::int32_t>(c.y()),
             static_cast<std::int32_t>(c.z())};
   };

@@ -9,6 +9,8 @@
 namespace evit {
 namespace {
 
+constexpr std::size_t kMaxStride = 1 << 20;  // bytes of one point, with all that comes along
+
 [[noreturn]] void Fail(const std::string& what) { throw std::runtime_error(what); }
 
 struct Field {
@@ -66,6 +68,7 @@ Header ReadHeader(const std::string& bytes) {
   if (!has_points) header.points = width * height;
   for (Field& field : header.fields) {
     if (field.size > 8 || field.count > 4096) Fail("field " + field.name + ": SIZE or COUNT is absurd");
+    if (header.stride > kMaxStride) Fail("FIELDS, SIZE and COUNT make rows of absurd length");
     field.offset = header.stride;
     header.stride += field.size * field.count;
   }
@@ -79,6 +82,7 @@ const Field& Find(const Header& header, const char* name) {
   if (it == header.fields.end()) Fail(std::string("FIELDS has no ") + name);
   if (it->type != 'F' || (it->size != 4 && it->size != 8))
     Fail(std::string("field ") + name + " is not float or double");
+  if (it->count != 1) Fail(std::string("field ") + name + " has a COUNT other than 1");
   return *it;
 }
 
@@ -110,7 +114,11 @@ void ReadAscii(const Header& header, const std::string& bytes, std::vector<Eigen
     std::size_t found = 0;
     for (std::size_t k = 0; words >> word; ++k) {
       for (int axis = 0; axis < 3; ++axis) {
-        if (k == columns[axis]) p[axis] = std::strtof(word.c_str(), nullptr), ++found;
+        if (k != columns[axis]) continue;
+        char* end = nullptr;
+        p[axis] = std::strtof(word.c_str(), &end);
+        if (*end != '\0') Fail("point " + std::to_string(points->size()) + ": \"" + word + "\" is no number");
+        ++found;
       }
     }
     if (found == 0) continue;  // an empty line

@@ -45,6 +45,24 @@ struct Element {
   std::vector<Property> properties;
 };
 
+// Bytes that one row takes at least: the last of an ascii file is "0 0 0" without a newline.
+std::size_t SmallestRow(const Element& element, const std::string& encoding) {
+  std::size_t size = 0;
+  for (const Property& p : element.properties) {
+    size += encoding == "ascii" ? 1 : (p.list ? p.count_type.size : p.type.size);
+  }
+  return size;
+}
+
+void RequireCoordinates(const Element& vertex) {
+  for (const char* axis : {"x", "y", "z"}) {
+    if (std::none_of(vertex.properties.begin(), vertex.properties.end(),
+                     [&](const Property& p) { return p.name == axis && !p.list; })) {
+      Fail(std::string("the vertex element has no property ") + axis);
+    }
+  }
+}
+
 // One number of a binary file, in either byte order.
 double Load(const char* data, const Type& type, bool swap) {
   char b[8];
@@ -136,15 +154,19 @@ void ReadPly(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std
   Numbers numbers(bytes, at, encoding);
   for (const Element& element : elements) {
     const bool vertex = element.name == "vertex";
-    // Each value takes a byte at least: a forged count is found before memory is reserved for it.
-    if (element.count > numbers.left())
-      Fail("truncated: element " + element.name + " announces more than there is");
+    if (vertex) RequireCoordinates(element);
+    // A forged count is found before memory is reserved for it.
+    if (element.count > numbers.left() / std::max<std::size_t>(1, SmallestRow(element, encoding))) {
+      Fail("truncated: element " + element.name + " announces " + std::to_string(element.count) +
+           " rows, more than the file holds; copy the file again");
+    }
     if (vertex) points->reserve(element.count);
     for (std::size_t k = 0; k < element.count; ++k) {
       Eigen::Vector3f p = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
       for (const Property& property : element.properties) {
         const auto n = property.list ? numbers.Next(property.count_type) : 1.0;
-        if (n < 0 || n > static_cast<double>(numbers.left())) Fail("a list's count is absurd");
+        if (property.list && !(n >= 0 && n <= static_cast<double>(numbers.left())))
+          Fail("a list's count is absurd");
         for (double i = 0; i < n; ++i) {
           const auto value = static_cast<float>(numbers.Next(property.type));
           if (!property.list && property.name.size() == 1 && property.name[0] >= 'x' &&

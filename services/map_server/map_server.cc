@@ -9,7 +9,9 @@
 namespace evit {
 namespace {
 
-constexpr int kMaxPoints = 20'000;  // in one answer: 320 kB, well within a receive buffer
+constexpr int kMaxPoints = 20'000;      // in one answer: 320 kB, well within a receive buffer
+constexpr std::size_t kMaxQueued = 64;  // queries; more are a flood, and old answers help nobody
+constexpr double kMaxMargin = 2000;  // pixels: the depth buffer covers the margin too, its memory is bounded
 
 VisibilityQuery FromMessage(const map_query_t& m) {
   VisibilityQuery q;
@@ -40,7 +42,8 @@ MapServer::MapServer(Bus* bus, const Channels& channels, MapIndex index, const s
       channels_(channels),
       index_(std::move(index)),
       status_(bus, channels, "map_server", NewEpoch()),
-      queries_(&status_, "MAP_QUERY") {
+      queries_(&status_, "MAP_QUERY"),
+      dropped_(&status_.Counter("MAP_QUERY.dropped")) {
   bus_->Subscribe(channels_.map_query, [this](const std::string&, const std::uint8_t* data,
                                               std::size_t size) { OnQuery(data, size); });
   status_.Counter("map.points") = static_cast<std::int64_t>(index_.map().points.size());
@@ -51,12 +54,25 @@ void MapServer::OnQuery(const std::uint8_t* data, std::size_t size) {
   map_query_t message;
   Camera::Model model{};
   if (!DecodeChecked(data, size, &message) || !CameraModelFromName(message.camera.model, &model) ||
-      message.max_points < 1 || message.max_points > kMaxPoints) {
+      message.max_points < 1 || message.max_points > kMaxPoints || message.margin_px > kMaxMargin) {
     queries_.CountInvalid();
     return;
   }
   // A query sent again is answered again: its first answer may have been lost.
   queries_.Accept(message.epoch, message.seq);
+  if (queue_.size() == kMaxQueued) {
+    queue_.pop_front();
+    ++*dropped_;
+  }
+  queue_.push_back(std::move(message));
+}
+
+void MapServer::Tick() {
+  for (; !queue_.empty(); queue_.pop_front()) Answer(queue_.front());
+  status_.Tick();
+}
+
+void MapServer::Answer(const map_query_t& message) {
   const auto begin = std::chrono::steady_clock::now();
   const VisibilityAnswer visible = index_.Query(FromMessage(message));
   status_.AddTiming(

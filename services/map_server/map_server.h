@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "common/service/runner.h"
 #include "common/service/sequence_counter.h"
 #include "common/service/status_reporter.h"
+#include "evit/map_query_t.hpp"
 
 namespace evit {
 
@@ -20,17 +22,21 @@ class MapServer : public Service {
   /// `bus` must outlive this. `description`: what STATUS says of the map.
   MapServer(Bus* bus, const Channels& channels, MapIndex index, const std::string& description);
 
-  void Tick() override { status_.Tick(); }
+  /// Answers what has come in since the last call, in order; of a flood the newest queries only.
+  void Tick() override;
   void Stop() override { status_.SetState("finished", "stopped"); }
 
  private:
   void OnQuery(const std::uint8_t* data, std::size_t size);
+  void Answer(const map_query_t& message);
 
   Bus* bus_;
   Channels channels_;
   MapIndex index_;
   StatusReporter status_;
   SequenceCounter queries_;
+  std::int64_t* dropped_;  // counter of STATUS
+  std::deque<map_query_t> queue_;
   std::int64_t seq_ = 0;
   std::vector<std::uint8_t> buffer_;
 };
