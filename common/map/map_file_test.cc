@@ -69,8 +69,8 @@ PointMap Grid(float spacing) {
   PointMap map;
   for (int k = 0; k < 4096; ++k) {
     map.points.push_back(spacing * Eigen::Vector3f(static_cast<float>(k % 16),
-                                                   static_cast<float>(k / 16 % 16),
-                                                   static_cast<float>(k / 256)));
+                                                   static_cast<float>((k / 16) % 16),
+                                                   static_cast<float>(k >> 8)));
   }
   return map;
 }

@@ -179,6 +179,7 @@ std::string Compressed(const std::vector<Eigen::Vector3f>& points) {
 
 TEST(PcdTest, CompressedWithOtherFields) {
   std::vector<Eigen::Vector3f> points;
+  points.reserve(2000);
   for (int k = 0; k < 2000; ++k) {
     points.emplace_back(0.5F * static_cast<float>(k % 7), static_cast<float>(k),
                         -1.0F / static_cast<float>(k + 1));

@@ -13,6 +13,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using ::testing::HasSubstr;
+constexpr char kProgram[] = EVIT_BIN_DIR "/map_server";
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 
 class MapServerBusTest : public ::testing::Test {
@@ -21,7 +22,7 @@ class MapServerBusTest : public ::testing::Test {
     WritePcd(file_.path(), map_);
   }
   static std::vector<std::string> Command(const std::string& map) {
-    return {EVIT_BIN_DIR "/map_server", "--map", map, "--lcm-url", kUrl};
+    return {kProgram, "--map", map, "--lcm-url", kUrl};
   }
   static std::string StderrFile() {
     return ::testing::TempDir() + "map_server_" + std::to_string(::getpid());

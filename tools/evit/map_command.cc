@@ -10,6 +10,7 @@
 #include "common/map/map_file.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
+#include "tools/map/top_view.h"
 
 namespace evit {
 namespace {
@@ -53,7 +54,7 @@ void PrintSummary(const std::string& path, const LoadedMap& loaded, bool json) {
 
 void AddMapCommand(CLI::App* app) {
   struct Options {
-    std::string in, out, transform;
+    std::string in, out, transform, png;
     double scale = 1, voxel = 0;
     bool json = false;
   };
@@ -84,11 +85,13 @@ void AddMapCommand(CLI::App* app) {
   CLI::App* info = map->add_subcommand("info", "Points, bounds and spacing of a point cloud");
   info->add_option("FILE", o->in, "Point cloud to read")->required();
   info->add_flag("--json", o->json, "Machine-readable output");
+  info->add_option("--png", o->png, "Draw it as seen from above, coloured by height");
   info->callback([o] {
     const LoadedMap loaded = LoadMap(o->in);
+    if (!o->png.empty()) WriteTopView(o->png, loaded.map);
     PrintSummary(o->in, loaded, o->json);
     RequireMetres(Summarize(loaded.map), o->in);
   });
-}  // namespace evit
+}
 
 }  // namespace evit
