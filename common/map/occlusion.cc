@@ -1,6 +1,7 @@
 #include "common/map/occlusion.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace evit {
@@ -46,8 +47,9 @@ std::vector<float> HidingDepths(const std::vector<Nearest>& buffer, int columns,
           quadrants[quadrant].Add(cell.second);
         }
       }
-      float second[4] = {quadrants[0].second, quadrants[1].second, quadrants[2].second, quadrants[3].second};
-      std::nth_element(second, second + kQuadrants - 1, second + 4);
+      std::array<float, 4> second = {quadrants[0].second, quadrants[1].second, quadrants[2].second,
+                                     quadrants[3].second};
+      std::sort(second.begin(), second.end());
       hiding[static_cast<std::size_t>(r) * columns + c] = second[kQuadrants - 1];
     }
   }

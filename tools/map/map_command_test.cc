@@ -39,8 +39,8 @@ Result Map(const std::string& arguments) {
 std::string Cloud(double spacing) {
   std::string text = "nan nan nan\n";
   for (int k = 0; k < 1000; ++k) {
-    text += std::to_string(spacing * (k % 10)) + " " + std::to_string(spacing * (k / 10 % 10)) + " " +
-            std::to_string(spacing * (k / 100)) + " 1 2 3\n";
+    text += std::to_string(spacing * (k % 10)) + " " + std::to_string(spacing * (k % 100 - k % 10) / 10) +
+            " " + std::to_string(spacing * (k - k % 100) / 100) + " 1 2 3\n";
   }
   return text;
 }

@@ -1,9 +1,9 @@
 #include "tools/map/top_view.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -89,8 +89,9 @@ void WriteTopView(const std::string& path, const PointMap& map) {
   const int base = picture.rows - 20, bar = static_cast<int>(length * scale);
   cv::line(picture, {kBorder, base}, {kBorder + bar, base}, kInk, 3);
   Write(&picture, Format("%g m", length), {kBorder, base - 8});
-  const int right = picture.cols - kBorder - 128;
-  cv::Mat legend = picture(cv::Rect(right, base - 6, 128, 8));
+  constexpr int kLegend = 180;  // pixels
+  const int right = picture.cols - kBorder - kLegend;
+  cv::Mat legend = picture(cv::Rect(right, base - 6, kLegend, 8));
   cv::resize(colours, legend, legend.size(), 0, 0, cv::INTER_AREA);
   Write(&picture, Format("z %.2f .. %.2f m", z.first, z.second), {right, base - 12});
 
