@@ -11,17 +11,23 @@
 namespace evit {
 
 LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& field,
-                         const std::vector<Eigen::Vector3f>& points, const SE3& start, int levels,
-                         int max_iterations) {
+                         const std::vector<Eigen::Vector3f>& points, const SE3& start,
+                         const StartSigma& sigma, int levels, int max_iterations) {
   BodyState state;
   state.T_world_body = start;
   StateBlocks blocks = ToBlocks(state);
+  StatePrior prior;
+  prior.mean = state;
+  prior.information.diagonal().segment<3>(0).setConstant(1 / (sigma.position * sigma.position));
+  prior.information.diagonal().segment<3>(3).setConstant(1 / (sigma.rotation * sigma.rotation));
   LocalizerResult result;
   for (int level = std::min(levels, field.levels()) - 1; level >= 0; --level) {
     ceres::Problem problem;
     problem.AddParameterBlock(blocks.pose.data(), 7, new PoseManifold);
     problem.AddResidualBlock(new EventAlignmentFactor(&settings, &field, level, &points), nullptr,
                              blocks.pose.data());
+    problem.AddResidualBlock(new PriorFactor(prior), nullptr, blocks.pose.data(), blocks.motion.data());
+    problem.SetParameterBlockConstant(blocks.motion.data());
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
     options.max_num_iterations = max_iterations;

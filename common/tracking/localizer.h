@@ -11,10 +11,17 @@ struct LocalizerResult {
   int iterations = 0;
 };
 
+/// How far the true pose may lie from the start, one standard deviation. A frame may say nothing about some
+/// direction (all edges parallel, few events): without this it would drift away along it.
+struct StartSigma {
+  double position = 0.1;   // m
+  double rotation = 0.09;  // rad
+};
+
 /// `start`: within the basin of the coarsest level, some 2^(levels+1) pixels. `levels`: from 1 to
 /// field.levels().
 LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& field,
-                         const std::vector<Eigen::Vector3f>& points, const SE3& start, int levels,
-                         int max_iterations = 15);
+                         const std::vector<Eigen::Vector3f>& points, const SE3& start,
+                         const StartSigma& sigma, int levels, int max_iterations = 15);
 
 }  // namespace evit

@@ -45,7 +45,7 @@ Tracker::Tracker(const Rig& rig, const config::Tracker& config, const SE3& T_map
       alignment_(MakeAlignment(rig, config.window())),
       active_(rig.camera, rig.T_body_camera.Inverse(), static_cast<std::uint64_t>(config.points().seed())),
       window_(alignment_, rig.gravity, config.window()) {
-  state_.T_world_body = T_map_body;
+  state_.T_world_body = anchor_ = T_map_body;
 }
 
 void Tracker::SetMode(TrackerMode mode, std::string reason) {
@@ -54,7 +54,7 @@ void Tracker::SetMode(TrackerMode mode, std::string reason) {
 }
 
 void Tracker::Restart(const SE3& T_map_body, std::string reason) {
-  state_.T_world_body = T_map_body;
+  state_.T_world_body = anchor_ = T_map_body;
   state_.velocity.setZero();
   frames_.clear();
   bad_keyframes_ = 0;

@@ -68,6 +68,8 @@ class Tracker {
   void ProcessBootstrap(const KeyframeInput& keyframe, TrackerOutput* out);
   void ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out);
   bool Bridge(const KeyframeInput& keyframe);
+  void Refuse(std::size_t n_points);
+  Eigen::Vector3d RecentVelocity() const;
   bool ReadyToBootstrap() const;
   bool TryBootstrap();
   BodyState Predict(const KeyframeInput& keyframe) const;
@@ -84,6 +86,7 @@ class Tracker {
   TrackerMode mode_ = TrackerMode::kBootstrapping;
   std::string reason_ = "waiting for the first keyframe";
   BodyState state_;
+  SE3 anchor_;  // where bootstrapping looks for the map
   Utime state_time_ = 0;
   Utime last_interval_ = 0;
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s: newest gyro reading less its bias

@@ -11,15 +11,11 @@ namespace {
 
 constexpr int kStartLevels = 4;  // coarsest level 8 times smaller: a basin of some 30 pixels
 constexpr int kFollowLevels = 3;
+constexpr StartSigma kStartSigma{0.1, 0.09};     // a start pose typed in by hand; a lost tracker
+constexpr StartSigma kFollowSigma{0.01, 0.006};  // constant velocity and gyro over some 10 ms
+constexpr std::size_t kSureFrames = 3;
 constexpr std::size_t kMaxFrames = 300;
 constexpr int kPatience = 100;  // frames that do not fit before the start counts as failed
-
-// Velocity over the last few localised frames: what constant-velocity prediction uses.
-Eigen::Vector3d RecentVelocity(const std::vector<BootstrapFrame>& frames) {
-  if (frames.size() < 2) return Eigen::Vector3d::Zero();
-  const BootstrapFrame &a = frames[frames.size() > 5 ? frames.size() - 5 : 0], &b = frames.back();
-  return (b.T_world_body.p - a.T_world_body.p) / ToSeconds(b.t - a.t);
-}
 
 // What the window may believe of its first state: the accuracy of an event-only pose and of the alignment.
 StatePrior FirstPrior(const BodyState& state) {
@@ -36,60 +32,80 @@ StatePrior FirstPrior(const BodyState& state) {
 
 void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, TrackerOutput* out) {
   auto field = std::make_shared<SurfaceField>(keyframe.surface, kStartLevels);
-  // Rotation from the gyro, which is good without any start-up; position from the last frames.
-  SE3 predicted = state_.T_world_body;
-  const bool has_imu = state_time_ != 0 && keyframe.imu.size() >= 2;
+  // Rotation from the gyro, which is good without any start-up; position from the last frames. Where there
+  // are none, from the anchor: the last pose that was sure, turned by the gyro since. It does not move with
+  // what was refused.
   std::shared_ptr<Preintegration> imu;
-  if (has_imu) {
+  if (state_time_ != 0 && keyframe.imu.size() >= 2) {
     imu = std::make_shared<Preintegration>(keyframe.imu, state_.bias, rig_.imu_noise);
-    predicted.q = (predicted.q * imu->delta().gamma).normalized();
-    predicted.p += imu->dt() * state_.velocity;
+    anchor_.q = (anchor_.q * imu->delta().gamma).normalized();
+  }
+  const bool following = !frames_.empty() && imu != nullptr;
+  SE3 predicted = anchor_;
+  if (following) {
+    predicted.q = (state_.T_world_body.q * imu->delta().gamma).normalized();
+    predicted.p = state_.T_world_body.p + imu->dt() * state_.velocity;
   }
   std::vector<Eigen::Vector3f> points =
       active_.Sample(predicted, config_.points().per_keyframe(), static_cast<std::uint64_t>(keyframe.seq));
+  const StartSigma& sigma = following ? kFollowSigma : kStartSigma;
   const LocalizerResult fit =
-      Localize(alignment_, *field, points, predicted, frames_.empty() ? kStartLevels : kFollowLevels);
+      Localize(alignment_, *field, points, predicted, sigma, following ? kFollowLevels : kStartLevels);
   out->quality = fit.quality;
   out->iterations = fit.iterations;
-  if (!Aligned(fit.quality)) {
-    state_.T_world_body = predicted;
-    ++bad_keyframes_;
-    if (frames_.size() > 1 && bad_keyframes_ > config_.failure().max_bad_keyframes()) {
-      frames_.clear();
-      state_.velocity.setZero();
-    }
-    // The chain of frames must have no holes: what comes between is bridged by joining the IMU samples below.
-    if (mode_ != TrackerMode::kLost && bad_keyframes_ > kPatience) {
-      SetMode(TrackerMode::kLost, points.size() < 30
-                                      ? "no map points in view of the start pose: is the map in metres, "
-                                        "and the start pose in its frame?"
-                                      : "the map does not lie on the events around the start pose");
-    } else if (mode_ == TrackerMode::kBootstrapping && frames_.empty()) {
-      reason_ = "waiting for events that fit the map";
-    }
-    if (!frames_.empty()) frames_.clear();
+  // A pose far from where it can be is a false minimum, however well the points happen to lie there: the gyro
+  // knows the turn between two frames far better than any frame does.
+  const bool plausible = (fit.T_world_body.p - predicted.p).norm() < 4 * sigma.position &&
+                         AngularDistance(fit.T_world_body.q, predicted.q) < 4 * sigma.rotation;
+  if (!plausible || !Aligned(fit.quality)) {
+    Refuse(points.size());
     return;
   }
-  bad_keyframes_ = 0;
   state_.T_world_body = fit.T_world_body;
   frames_.push_back({{keyframe.t, fit.T_world_body, imu}, keyframe.seq, field, points});
   if (frames_.size() > kMaxFrames) frames_.erase(frames_.begin());
-  std::vector<BootstrapFrame> chain;
-  for (std::size_t k = frames_.size() > 5 ? frames_.size() - 5 : 0; k < frames_.size(); ++k) {
-    chain.push_back(frames_[k].frame);
+  state_.velocity = RecentVelocity();
+  if (state_.velocity.norm() > config_.failure().max_speed()) {
+    Refuse(points.size());
+    return;
   }
-  state_.velocity = RecentVelocity(chain);
-  if (mode_ == TrackerMode::kLost && frames_.size() >= 5)
-    SetMode(TrackerMode::kBootstrapping, "found the map again");
-  if (mode_ == TrackerMode::kBootstrapping) {
-    reason_ = "localising high-rate frames";
-    if (ReadyToBootstrap() && TryBootstrap()) {
-      for (const WindowNode& n : window_.nodes()) out->nodes.push_back({n.t, n.seq, n.state});
-    }
+  // A single frame finds some minimum nearly anywhere; several in a row that agree with gyro and constant
+  // velocity do not.
+  if (frames_.size() < kSureFrames) return;
+  bad_keyframes_ = 0;
+  anchor_ = fit.T_world_body;
+  if (mode_ == TrackerMode::kLost) SetMode(TrackerMode::kBootstrapping, "found the map again");
+  reason_ = "localising high-rate frames";
+  if (ReadyToBootstrap() && TryBootstrap()) {
+    for (const WindowNode& n : window_.nodes()) out->nodes.push_back({n.t, n.seq, n.state});
+  } else {
+    out->nodes.push_back({keyframe.t, keyframe.seq, state_});
   }
-  if (mode_ == TrackerMode::kLost) return;
-  if (out->nodes.empty()) out->nodes.push_back({keyframe.t, keyframe.seq, state_});
   Finish(points, out);
+}
+
+void Tracker::Refuse(std::size_t n_points) {
+  frames_.clear();  // the chain must have no holes
+  state_.T_world_body = anchor_;
+  state_.velocity.setZero();
+  ++bad_keyframes_;
+  if (mode_ == TrackerMode::kLost) return;
+  if (bad_keyframes_ <= kPatience) {
+    reason_ = "waiting for events that fit the map";
+  } else if (n_points < 30) {
+    SetMode(
+        TrackerMode::kLost,
+        "no map points in view of the start pose: is the map in metres, and the start pose in its frame?");
+  } else {
+    SetMode(TrackerMode::kLost, "the map does not lie on the events around the start pose");
+  }
+}
+
+Eigen::Vector3d Tracker::RecentVelocity() const {
+  if (frames_.size() < 2) return Eigen::Vector3d::Zero();
+  const BootstrapFrame& a = frames_[frames_.size() > 5 ? frames_.size() - 5 : 0].frame;
+  const BootstrapFrame& b = frames_.back().frame;
+  return (b.T_world_body.p - a.T_world_body.p) / ToSeconds(b.t - a.t);
 }
 
 bool Tracker::ReadyToBootstrap() const {
