@@ -26,7 +26,8 @@ class FieldChecks {
   /// utime, seq and epoch, which open every message.
   template <typename Message>
   FieldChecks& Stamp(const Message& m) {
-    return Time("utime", m.utime).That(m.seq >= 0, "seq is negative");
+    // The upper bound leaves room for arithmetic on numbers a forger chose.
+    return Time("utime", m.utime).That(m.seq >= 0 && m.seq < kMaxSequence, "seq is no message number");
   }
 
   FieldChecks& Time(const char* name, std::int64_t utime) {

@@ -1,6 +1,7 @@
 #include "common/geometry/camera.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace evit {
@@ -50,28 +51,40 @@ void Distort(const Camera& camera, const Vec2& m, Vec2* out, Mat2* jacobian) {
   }
 }
 
-}  // namespace
-
-double MaxRadiusSquared(const Camera& camera) {
+// Whether the distortion polynomial grows all the way from the centre to the ray at squared radius r2. Beyond
+// the first place where it turns back (it may rise again later) a point outside the view would land in the
+// image.
+bool InLensRange(const Camera& camera, double r2) {
   const auto& d = camera.distortion;
-  if (camera.model == Camera::Model::kEquidistant) return 1e6;
-  // d(r * radial)/dr = 1 + 3 k1 r^2 + 5 k2 r^4 + 7 k3 r^6 > 0: walk out until it is not. 25 is a ray at 79
-  // degrees.
-  for (double r2 = 0; r2 < 25; r2 += 0.01) {
-    if (1 + r2 * (3 * d[0] + r2 * (5 * d[1] + r2 * 7 * d[4])) <= 0) return r2;
+  std::array<double, 4> k{};  // slope at u: 1 + k0 u + k1 u^2 + k2 u^3 + k3 u^4
+  double end = r2;            // plumb_bob: u = r^2; equidistant: u = theta^2
+  if (camera.model == Camera::Model::kPlumbBob) {
+    if (!(r2 <= 25)) return false;  // a ray at 79 degrees: no such lens has a polynomial that far out
+    k = {3 * d[0], 5 * d[1], 7 * d[4], 0};
+  } else {
+    const double theta = std::atan(std::sqrt(r2));
+    k = {3 * d[0], 5 * d[1], 7 * d[2], 9 * d[3]};
+    end = theta * theta;
   }
-  return 25;
+  // Cheap and enough for nearly every point: the negative terms alone never reach -1.
+  double lower = 0;
+  for (int i = 3; i >= 0; --i) lower = (lower + std::min(k[i], 0.0)) * end;
+  if (1 + lower > 0) return true;
+  constexpr int kSteps = 32;
+  for (int step = kSteps; step > 0; --step) {
+    const double u = end * step / kSteps;
+    if (1 + u * (k[0] + u * (k[1] + u * (k[2] + u * k[3]))) <= 0) return false;
+  }
+  return true;
 }
+
+}  // namespace
 
 bool Camera::Project(const Eigen::Vector3d& point, Vec2* pixel, Eigen::Matrix<double, 2, 3>* jacobian) const {
   if (!(point.z() > 1e-6)) return false;
   const double iz = 1 / point.z();
   const Vec2 m(point.x() * iz, point.y() * iz);
-  const double r2 = m.squaredNorm();
-  if (model == Model::kPlumbBob) {
-    const auto& d = distortion;
-    if (r2 > 25 || 1 + r2 * (3 * d[0] + r2 * (5 * d[1] + r2 * 7 * d[4])) <= 0) return false;
-  }
+  if (!InLensRange(*this, m.squaredNorm())) return false;
   Vec2 out;
   Mat2 dm;
   Distort(*this, m, &out, jacobian != nullptr ? &dm : nullptr);

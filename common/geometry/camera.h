@@ -37,7 +37,4 @@ struct Camera {
 bool CameraModelFromName(const std::string& name, Camera::Model* model);
 const char* CameraModelName(Camera::Model model);
 
-/// Largest squared radius r^2 = (x^2+y^2)/z^2 up to which the radial distortion is monotonic (plumb_bob).
-double MaxRadiusSquared(const Camera& camera);
-
 }  // namespace evit

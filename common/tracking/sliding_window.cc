@@ -90,12 +90,6 @@ SlidingWindow::Summary SlidingWindow::Solve() {
   for (WindowNode& node : nodes_) {
     if (node.alignment.cost == 0) node.alignment = Align(node);
   }
-  if (nodes_.size() > 1) {
-    result.imu_cost =
-        0.5 * Term(nodes_.back())
-                  .Evaluate(nodes_[nodes_.size() - 2].state, nodes_.back().state, nullptr, nullptr)
-                  .squaredNorm();
-  }
   return result;
 }
 

@@ -28,7 +28,6 @@ class SlidingWindow {
     int iterations = 0;
     double initial_cost = 0, final_cost = 0;
     bool usable = false;  // the solver reached a finite state
-    double imu_cost = 0;  // of the newest IMU term: half its squared whitened residual
   };
 
   SlidingWindow(AlignmentSettings alignment, double gravity, const config::Window& config);

@@ -6,9 +6,9 @@
 #include <fstream>
 
 #include "common/bus/lcm_bus.h"
+#include "common/service/child_process.h"
 #include "common/service/credit_sender.h"
 #include "common/service/sequence_counter.h"
-#include "services/log_replay/child_process.h"
 #include "services/log_replay/test_recording.h"
 
 namespace evit {

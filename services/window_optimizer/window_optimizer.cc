@@ -106,8 +106,9 @@ void WindowOptimizer::OnKeyframe(const std::uint8_t* data, std::size_t size) {
   ProcessQueue();
 }
 
-// Lossless: whether this is the keyframe to take next. A new sender starts with number 0; where this service itself is
-// the newer one, the sender is further on, and what it sends twice is the oldest it still has no answer for.
+// Lossless: whether this is the keyframe to take next. A new sender starts with number 0; where this service
+// itself is the newer one, the sender is further on, and what it sends twice is the oldest it still has no
+// answer for.
 bool WindowOptimizer::InOrder(SequenceCounter::Verdict verdict, const keyframe_t& message) {
   if (verdict == SequenceCounter::Verdict::kGap) return false;
   if (verdict != SequenceCounter::Verdict::kNewEpoch || message.seq == 0) return true;

@@ -1,0 +1,120 @@
+// TUM files in and out, stamps without a lost microsecond, interpolation.
+#include "common/evaluation/trajectory.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "common/evaluation/decimal_time.h"
+
+namespace evit {
+namespace {
+
+TEST(DecimalTime, EveryMicrosecondOfTodaysDatesSurvives) {
+  for (Utime t = 1'642'661'138'836'530; t < 1'642'661'138'836'630; ++t) {
+    Utime back = 0;
+    ASSERT_TRUE(ParseDecimalSeconds(DecimalSeconds(t), &back));
+    ASSERT_EQ(back, t);
+  }
+}
+
+TEST(DecimalTime, Forms) {
+  const auto parse = [](const std::string& text) {
+    Utime t = 0;
+    EXPECT_TRUE(ParseDecimalSeconds(text, &t)) << text;
+    return t;
+  };
+  EXPECT_EQ(parse("12"), 12'000'000);
+  EXPECT_EQ(parse("0.5"), 500'000);
+  EXPECT_EQ(parse(".25"), 250'000);
+  EXPECT_EQ(parse("-1.5"), -1'500'000);
+  EXPECT_EQ(parse("+3."), 3'000'000);
+  EXPECT_EQ(parse("1.0000004"), 1'000'000);
+  EXPECT_EQ(parse("1.0000005"), 1'000'001);
+  EXPECT_EQ(parse("0.9999999"), 1'000'000);
+  EXPECT_EQ(DecimalSeconds(-1'500'000), "-1.500000");
+  for (const char* bad : {"", "-", ".", "1e3", "1.2.3", "abc", "12s", "1234567890123", "nan"}) {
+    Utime t = 0;
+    EXPECT_FALSE(ParseDecimalSeconds(bad, &t)) << bad;
+  }
+}
+
+class TumFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = ::testing::TempDir() + "evit_" + ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  }
+  void TearDown() override { std::remove(path_.c_str()); }
+  void Write(const std::string& text) const { std::ofstream(path_) << text; }
+  // The complaint of ReadTum; empty where there is none.
+  std::string Complaint(const std::string& text) const {
+    Write(text);
+    try {
+      ReadTum(path_);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::string path_;
+};
+
+TEST_F(TumFile, RoundTrip) {
+  Trajectory written;
+  for (int k = 0; k < 50; ++k) {
+    written.push_back(
+        {1'642'661'138'000'000 + k * 8333, {ExpSO3({0.01 * k, -1, 0.3}), {k * 0.1, -2.0, 1e-4}}});
+  }
+  WriteTum(path_, written);
+  const Trajectory read = ReadTum(path_);
+  ASSERT_EQ(read.size(), written.size());
+  for (std::size_t k = 0; k < read.size(); ++k) {
+    EXPECT_EQ(read[k].t, written[k].t);
+    EXPECT_LT((read[k].pose.p - written[k].pose.p).norm(), 1e-8);
+    EXPECT_LT(AngularDistance(read[k].pose.q, written[k].pose.q), 1e-7);
+  }
+}
+
+TEST_F(TumFile, CommentsCommasAndBlankLinesAreFine) {
+  EXPECT_EQ(Complaint("# t x y z qx qy qz qw\n\n1,0,0,0,0,0,0,1\n2 0 0 0 0 0 0 -1\n"), "");
+  EXPECT_EQ(ReadTum(path_).size(), 2u);
+}
+
+TEST_F(TumFile, ComplaintsNameFileLineAndFault) {
+  const auto expect = [this](const std::string& text, const std::string& where, const std::string& what) {
+    const std::string complaint = Complaint(text);
+    EXPECT_NE(complaint.find(path_ + where), std::string::npos) << complaint;
+    EXPECT_NE(complaint.find(what), std::string::npos) << complaint;
+  };
+  expect("1 0 0 0 0 0 0 1\n2 0 0 0\n", ":2", "eight numbers");
+  expect("1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n", ":2", "does not increase");
+  expect("1 0 0 0 0 0 0 0\n", ":1", "not of length 1");
+  expect("#\n1e9 0 0 0 0 0 0 1\n", ":2", "not a time");
+  expect("1 0 0 x 0 0 0 1\n", ":1", "eight numbers");
+  expect("# nothing\n", "", "holds no pose");
+  EXPECT_THROW(ReadTum(path_ + ".absent"), std::runtime_error);
+  EXPECT_THROW(WriteTum("/nonexistent/folder/a.tum", {}), std::runtime_error);
+}
+
+TEST(PoseAt, InterpolatesInsideAndRefusesOutsideAndHoles) {
+  const Trajectory t{{0, {ExpSO3({0, 0, 0}), {0, 0, 0}}},
+                     {100'000, {ExpSO3({0, 0, 0.2}), {1, 0, 0}}},
+                     {900'000, {ExpSO3({0, 0, 0.4}), {2, 0, 0}}}};
+  SE3 pose;
+  ASSERT_TRUE(PoseAt(t, 25'000, &pose));
+  EXPECT_NEAR(pose.p.x(), 0.25, 1e-12);
+  EXPECT_NEAR(LogSO3(pose.q).z(), 0.05, 1e-12);
+  ASSERT_TRUE(PoseAt(t, 0, &pose));
+  ASSERT_TRUE(PoseAt(t, 900'000, &pose));
+  EXPECT_NEAR(pose.p.x(), 2, 1e-12);
+  EXPECT_FALSE(PoseAt(t, -1, &pose));
+  EXPECT_FALSE(PoseAt(t, 900'001, &pose));
+  EXPECT_FALSE(PoseAt(t, 500'000, &pose)) << "a hole of 0.8 s";
+  EXPECT_TRUE(PoseAt(t, 500'000, &pose, 1'000'000));
+}
+
+}  // namespace
+}  // namespace evit
