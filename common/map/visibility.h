@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "common/geometry/camera.h"
@@ -39,6 +40,9 @@ class MapIndex {
   VisibilityAnswer Query(const VisibilityQuery& query) const;
 
  private:
+  std::vector<std::pair<std::size_t, std::size_t>> CellsInView(const VisibilityQuery& query,
+                                                               const SE3& T_camera_world) const;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

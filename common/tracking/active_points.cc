@@ -2,21 +2,16 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
+
+#include "common/map/spread_subset.h"
 
 namespace evit {
 namespace {
 
-constexpr int kTile = 32;  // pixels
 constexpr double kBorder =
     4;  // pixels: points closer to the edge would leave the image while the solver moves
-
-// SplitMix64: a well-mixed number per (seed, salt, id), without state.
-std::uint64_t Mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31);
-}
+constexpr double kAnyDepth = 1e30;
 
 }  // namespace
 
@@ -25,79 +20,74 @@ ActivePoints::ActivePoints(Camera camera, SE3 T_camera_body, std::uint64_t seed)
 
 void ActivePoints::Clear() {
   ids_.clear();
-  points_.clear();
+  points_.Resize(0);
 }
 
 void ActivePoints::Merge(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& points) {
   std::vector<std::size_t> order(ids.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
+  if (!std::is_sorted(ids.begin(), ids.end())) {
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
+  }
   std::vector<std::int32_t> merged_ids;
-  std::vector<Eigen::Vector3f> merged;
+  PointArrays merged;
   merged_ids.reserve(ids_.size() + ids.size());
-  merged.reserve(ids_.size() + ids.size());
+  merged.Resize(ids_.size() + ids.size());
+  const auto take = [&](std::int32_t id, const Eigen::Vector3f& p) {
+    merged.Set(merged_ids.size(), p);
+    merged_ids.push_back(id);
+  };
   std::size_t a = 0;
-  const auto take_old = [&](std::size_t k) { merged_ids.push_back(ids_[k]), merged.push_back(points_[k]); };
   for (const std::size_t b : order) {
-    while (a < ids_.size() && ids_[a] < ids[b]) take_old(a++);
+    for (; a < ids_.size() && ids_[a] < ids[b]; ++a) take(ids_[a], points_.At(a));
     if (a < ids_.size() && ids_[a] == ids[b]) ++a;  // the newer answer counts
     if (!merged_ids.empty() && merged_ids.back() == ids[b]) continue;
-    merged_ids.push_back(ids[b]);
-    merged.push_back(points[b]);
+    take(ids[b], points[b]);
   }
-  while (a < ids_.size()) take_old(a++);
-  ids_.swap(merged_ids);
-  points_.swap(merged);
+  for (; a < ids_.size(); ++a) take(ids_[a], points_.At(a));
+  merged.Resize(merged_ids.size());
+  std::swap(ids_, merged_ids);
+  std::swap(points_, merged);
+}
+
+std::vector<ProjectedPoint> ActivePoints::Seen(const SE3& T_world_body, double margin_px) const {
+  const ViewProjector projector(camera_, T_camera_body_ * T_world_body.Inverse(), margin_px, 0, kAnyDepth);
+  std::vector<std::int32_t> places(ids_.size());
+  std::iota(places.begin(), places.end(), 0);
+  std::vector<ProjectedPoint> seen(ids_.size() + 1);
+  seen.resize(projector.Project(points_, places.data(), 0, places.size(), seen.data()));
+  return seen;
 }
 
 void ActivePoints::Retain(const std::vector<SE3>& T_world_body, double margin_px) {
+  std::vector<std::uint8_t> keep(ids_.size(), 0);
+  for (const SE3& pose : T_world_body) {
+    for (const ProjectedPoint& p : Seen(pose, margin_px)) keep[p.id] = 1;
+  }
   std::size_t kept = 0;
-  std::vector<SE3> T_camera_world;
-  for (const SE3& pose : T_world_body) T_camera_world.push_back(T_camera_body_ * pose.Inverse());
   for (std::size_t k = 0; k < ids_.size(); ++k) {
-    const bool seen = std::any_of(T_camera_world.begin(), T_camera_world.end(), [&](const SE3& T) {
-      Eigen::Vector2d pixel;
-      return camera_.Project(T * points_[k].cast<double>(), &pixel) && camera_.Contains(pixel, -margin_px);
-    });
-    if (!seen) continue;
+    if (keep[k] == 0) continue;
     ids_[kept] = ids_[k];
-    points_[kept++] = points_[k];
+    points_.Set(kept++, points_.At(k));
   }
   ids_.resize(kept);
-  points_.resize(kept);
+  points_.Resize(kept);
 }
 
 std::vector<Eigen::Vector3f> ActivePoints::Sample(const SE3& T_world_body, int count,
                                                   std::uint64_t salt) const {
-  struct Candidate {
-    std::uint64_t key;
-    std::size_t index;
-    int tile, turn;
-  };
-  const SE3 T_camera_world = T_camera_body_ * T_world_body.Inverse();
-  const int columns = camera_.width / kTile + 1, rows = camera_.height / kTile + 1;
-  std::vector<Candidate> candidates;
-  candidates.reserve(ids_.size());
-  const std::uint64_t base = Mix(seed_ ^ Mix(salt));
-  for (std::size_t k = 0; k < ids_.size(); ++k) {
-    Eigen::Vector2d pixel;
-    if (!camera_.Project(T_camera_world * points_[k].cast<double>(), &pixel) ||
-        !camera_.Contains(pixel, kBorder)) {
-      continue;
-    }
-    const int tile = static_cast<int>(pixel.y()) / kTile * columns + static_cast<int>(pixel.x()) / kTile;
-    candidates.push_back({Mix(base ^ static_cast<std::uint64_t>(ids_[k])), k, tile, 0});
+  std::vector<ProjectedPoint> seen = Seen(T_world_body, -kBorder);
+  std::vector<std::int32_t> places;
+  places.reserve(seen.size());
+  for (ProjectedPoint& p : seen) {  // the draw goes by the map's ids, whatever the order here
+    places.push_back(p.id);
+    p.id = ids_[p.id];
   }
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.key < b.key; });
-  std::vector<int> taken(static_cast<std::size_t>(columns * rows), 0);
-  for (Candidate& c : candidates) c.turn = taken[c.tile]++;
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.turn < b.turn; });
-  candidates.resize(std::min<std::size_t>(candidates.size(), count));
   std::vector<Eigen::Vector3f> sample;
-  sample.reserve(candidates.size());
-  for (const Candidate& c : candidates) sample.push_back(points_[c.index]);
+  for (const std::int32_t k : SpreadSubset(seen, {camera_.width, camera_.height, -kBorder},
+                                           static_cast<std::size_t>(count), seed_ ^ Mix(salt))) {
+    sample.push_back(points_.At(places[k]));
+  }
   return sample;
 }
 

@@ -6,6 +6,7 @@
 
 #include "common/geometry/camera.h"
 #include "common/geometry/se3.h"
+#include "common/map/view_projector.h"
 
 namespace evit {
 
@@ -30,11 +31,14 @@ class ActivePoints {
   void Clear();
 
  private:
+  /// Points in view; their `id` is the place in points_.
+  std::vector<ProjectedPoint> Seen(const SE3& T_world_body, double margin_px) const;
+
   Camera camera_;
   SE3 T_camera_body_;
   std::uint64_t seed_;
-  std::vector<std::int32_t> ids_;        // ascending
-  std::vector<Eigen::Vector3f> points_;  // same order
+  std::vector<std::int32_t> ids_;  // ascending
+  PointArrays points_;             // same order
 };
 
 }  // namespace evit

@@ -18,7 +18,7 @@ class EventAlignmentFactor : public ceres::SizedCostFunction<7, 7> {
  public:
   /// All arguments must outlive this.
   EventAlignmentFactor(const AlignmentSettings* settings, const SurfaceField* field, int level,
-                       const std::vector<Eigen::Vector3f>* points)
+                       const AlignmentPoints* points)
       : settings_(settings), field_(field), level_(level), points_(points) {}
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override;
 
@@ -26,7 +26,7 @@ class EventAlignmentFactor : public ceres::SizedCostFunction<7, 7> {
   const AlignmentSettings* settings_;
   const SurfaceField* field_;
   int level_;
-  const std::vector<Eigen::Vector3f>* points_;
+  const AlignmentPoints* points_;
 };
 
 /// ImuTerm over (pose i, motion i, pose j, motion j).

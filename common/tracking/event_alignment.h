@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
-#include "common/geometry/camera.h"
+#include "common/geometry/lane_camera.h"
 #include "common/geometry/se3.h"
+#include "common/tracking/alignment_points.h"
 #include "common/tracking/surface_field.h"
 
 namespace evit {
@@ -22,10 +22,20 @@ struct RobustKernel {
 /// The event alignment term of one keyframe (paper Eq. (3)): sum over points of rho((T(pi(P)) / sigma)^2)
 /// / 2.
 struct AlignmentSettings {
-  Camera camera;
   SE3 T_camera_body;
   double image_sigma = 80;  // grey levels
   RobustKernel kernel;
+
+  void set_camera(const Camera& camera) {
+    camera_ = camera;
+    lane_camera_ = LaneCamera(camera);
+  }
+  const Camera& camera() const { return camera_; }
+  const LaneCamera& lane_camera() const { return lane_camera_; }
+
+ private:
+  Camera camera_;
+  LaneCamera lane_camera_;
 };
 
 /// Value, gradient and Hessian over the tangent (dp, dtheta) of T_world_body.
@@ -40,10 +50,9 @@ struct AlignmentTerm {
   Eigen::Matrix<double, 6, 6> hessian = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
-/// `points`: map frame. A point behind the camera costs what an empty field (255) costs and pulls nowhere.
+/// A point behind the camera costs what an empty field (255) costs and pulls nowhere.
 AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
-                                const std::vector<Eigen::Vector3f>& points, const SE3& T_world_body,
-                                bool derivatives);
+                                const AlignmentPoints& points, const SE3& T_world_body, bool derivatives);
 
 /// How well projected points sit on a surface's edges, against the same points shifted by some pixels: a
 /// figure that needs no threshold on the scene's texture.
@@ -58,7 +67,6 @@ struct AlignmentQuality {
   double contrast() const { return shifted_value > 0 ? 1.0 - mean_value / shifted_value : 0.0; }
 };
 AlignmentQuality MeasureAlignment(const AlignmentSettings& settings, const SurfaceField& field,
-                                  const std::vector<Eigen::Vector3f>& points, const SE3& T_world_body,
-                                  double shift = 10);
+                                  const AlignmentPoints& points, const SE3& T_world_body, double shift = 10);
 
 }  // namespace evit

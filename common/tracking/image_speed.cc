@@ -4,7 +4,7 @@
 
 namespace evit {
 
-double MedianImageSpeed(const AlignmentSettings& settings, const std::vector<Eigen::Vector3f>& points,
+double MedianImageSpeed(const AlignmentSettings& settings, const AlignmentPoints& points,
                         const SE3& T_world_body, const Eigen::Vector3d& velocity,
                         const Eigen::Vector3d& rate) {
   constexpr std::size_t kEnough = 200;  // points: a median needs no more
@@ -13,11 +13,11 @@ double MedianImageSpeed(const AlignmentSettings& settings, const std::vector<Eig
   const Eigen::Vector3d v_body = R_bw * velocity;
   std::vector<double> speeds;
   for (std::size_t k = 0; k < points.size(); k += stride) {
-    const Eigen::Vector3d p_body = R_bw * (points[k].cast<double>() - T_world_body.p);
+    const Eigen::Vector3d p_body = R_bw * (points.At(k) - T_world_body.p);
     Eigen::Vector2d pixel;
     Eigen::Matrix<double, 2, 3> jacobian;
-    if (!settings.camera.Project(settings.T_camera_body * p_body, &pixel, &jacobian) ||
-        !settings.camera.Contains(pixel)) {
+    if (!settings.camera().Project(settings.T_camera_body * p_body, &pixel, &jacobian) ||
+        !settings.camera().Contains(pixel)) {
       continue;
     }
     const Eigen::Vector3d flow = -v_body - rate.cross(p_body);  // of a fixed point, seen from the body

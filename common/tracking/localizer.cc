@@ -11,8 +11,8 @@
 namespace evit {
 
 LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& field,
-                         const std::vector<Eigen::Vector3f>& points, const SE3& start,
-                         const StartSigma& sigma, int levels, int max_iterations) {
+                         const AlignmentPoints& points, const SE3& start, const StartSigma& sigma, int levels,
+                         int max_iterations) {
   BodyState state;
   state.T_world_body = start;
   StateBlocks blocks = ToBlocks(state);

@@ -21,7 +21,7 @@ struct StartSigma {
 /// `start`: within the basin of the coarsest level, some 2^(levels+1) pixels. `levels`: from 1 to
 /// field.levels().
 LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& field,
-                         const std::vector<Eigen::Vector3f>& points, const SE3& start,
-                         const StartSigma& sigma, int levels, int max_iterations = 15);
+                         const AlignmentPoints& points, const SE3& start, const StartSigma& sigma, int levels,
+                         int max_iterations = 15);
 
 }  // namespace evit

@@ -15,7 +15,7 @@ struct WindowNode {
   std::int64_t seq = 0;  // keyframe number
   BodyState state;
   std::shared_ptr<const SurfaceField> field;
-  std::vector<Eigen::Vector3f> points;  // of the map, in view of this keyframe
+  AlignmentPoints points;               // of the map, in view of this keyframe
   std::shared_ptr<Preintegration> imu;  // from the previous node to this one; unused in the oldest
   AlignmentTerm alignment = {};         // as of its first solve; cost 0: not yet known
 };

@@ -4,6 +4,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "common/tracking/surface_lanes.h"
+
 namespace evit {
 
 /// A negated time surface as a smooth cost field over the image (paper Sec. III-B.2), with coarser copies of
@@ -29,8 +31,8 @@ class SurfaceField {
   };
   /// At pixel (x, y) of level 0. Outside the image the nearest border value counts, with no gradient across.
   Sample At(int level, double x, double y) const;
-  /// The value alone, at half the cost.
-  float ValueAt(int level, double x, double y) const;
+  /// For samples of many places at once.
+  LaneField Lanes(int level) const;
 
   /// Mean value of the whole field, 0..255: what a point placed at random meets.
   double mean() const { return mean_; }

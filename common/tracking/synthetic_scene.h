@@ -36,7 +36,7 @@ inline SE3 BodyCamera() {
 
 inline AlignmentSettings Alignment(Camera::Model model = Camera::Model::kPlumbBob) {
   AlignmentSettings settings;
-  settings.camera = VgaCamera(model);
+  settings.set_camera(VgaCamera(model));
   settings.T_camera_body = BodyCamera().Inverse();
   settings.kernel = {RobustKernel::Kind::kCauchy, 1.0};
   return settings;
@@ -94,11 +94,11 @@ struct Motion {
 /// Negated time surface as it would be with an event just now under every visible point.
 inline cv::Mat DrawSurface(const AlignmentSettings& settings, const std::vector<Eigen::Vector3f>& points,
                            const SE3& T_world_body, double sigma = 1.5) {
-  cv::Mat dots(settings.camera.height, settings.camera.width, CV_32FC1, cv::Scalar(0));
+  cv::Mat dots(settings.camera().height, settings.camera().width, CV_32FC1, cv::Scalar(0));
   const SE3 T = settings.T_camera_body * T_world_body.Inverse();
   for (const auto& p : points) {
     Eigen::Vector2d uv;
-    if (!settings.camera.Project(T * p.cast<double>(), &uv) || !settings.camera.Contains(uv, 1)) continue;
+    if (!settings.camera().Project(T * p.cast<double>(), &uv) || !settings.camera().Contains(uv, 1)) continue;
     const int x = static_cast<int>(uv.x()),
               y = static_cast<int>(uv.y());  // bilinear splat keeps sub-pixel positions
     const auto a = static_cast<float>(uv.x() - x), b = static_cast<float>(uv.y() - y);

@@ -13,7 +13,7 @@ constexpr Utime kQueryAhead = 20'000;   // us ahead of the newest keyframe, wher
 
 AlignmentSettings MakeAlignment(const Rig& rig, const config::Window& window) {
   AlignmentSettings settings;
-  settings.camera = rig.camera;
+  settings.set_camera(rig.camera);
   settings.T_camera_body = rig.T_body_camera.Inverse();
   settings.image_sigma = window.image_sigma();
   switch (window.kernel()) {
@@ -95,7 +95,7 @@ bool Tracker::Aligned(const AlignmentQuality& quality) const {
          quality.contrast() >= config_.failure().min_contrast();
 }
 
-void Tracker::Finish(const std::vector<Eigen::Vector3f>& points, TrackerOutput* out) const {
+void Tracker::Finish(const AlignmentPoints& points, TrackerOutput* out) const {
   out->has_pose = true;
   out->image_speed = MedianImageSpeed(alignment_, points, state_.T_world_body, state_.velocity, rate_);
 }

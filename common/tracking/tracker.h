@@ -76,7 +76,7 @@ class Tracker {
   bool Aligned(const AlignmentQuality& quality) const;
   void SetMode(TrackerMode mode, std::string reason);
   void Restart(const SE3& T_map_body, std::string reason);
-  void Finish(const std::vector<Eigen::Vector3f>& points, TrackerOutput* out) const;
+  void Finish(const AlignmentPoints& points, TrackerOutput* out) const;
 
   Rig rig_;
   config::Tracker config_;
@@ -96,7 +96,7 @@ class Tracker {
     BootstrapFrame frame;
     std::int64_t seq;
     std::shared_ptr<const SurfaceField> field;
-    std::vector<Eigen::Vector3f> points;
+    AlignmentPoints points;
   };
   std::vector<LocalizedFrame> frames_;
 };

@@ -46,7 +46,7 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, TrackerOutput* out
     predicted.q = (state_.T_world_body.q * imu->delta().gamma).normalized();
     predicted.p = state_.T_world_body.p + imu->dt() * state_.velocity;
   }
-  std::vector<Eigen::Vector3f> points =
+  AlignmentPoints points =
       active_.Sample(predicted, config_.points().per_keyframe(), static_cast<std::uint64_t>(keyframe.seq));
   const StartSigma& sigma = following ? kFollowSigma : kStartSigma;
   const LocalizerResult fit =

@@ -1,0 +1,107 @@
+#include "common/map/spread_subset.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace evit {
+namespace {
+
+constexpr float kTile = 32;  // pixels
+
+// What a draw is decided by: random number, then id (no two points tie).
+struct Draw {
+  std::uint64_t number;
+  std::int32_t id, place;
+  bool operator<(const Draw& other) const {
+    return number != other.number ? number < other.number : id < other.id;
+  }
+};
+
+// The largest quota with which the tiles together stay within the budget.
+std::size_t Quota(const std::vector<std::int32_t>& counts, std::size_t budget) {
+  const auto taken = [&](std::size_t quota) {
+    std::size_t sum = 0;
+    for (const std::int32_t n : counts) sum += std::min<std::size_t>(n, quota);
+    return sum;
+  };
+  std::size_t quota = 0, above = budget + 1;
+  while (above - quota > 1) {
+    const std::size_t middle = (quota + above) / 2;
+    (taken(middle) <= budget ? quota : above) = middle;
+  }
+  return quota;
+}
+
+}  // namespace
+
+std::uint64_t Mix(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+std::vector<std::int32_t> SpreadSubset(const std::vector<ProjectedPoint>& points, const ScreenArea& area,
+                                       std::size_t budget, std::uint64_t seed) {
+  std::vector<std::int32_t> places;
+  if (points.size() <= budget) {
+    places.resize(points.size());
+    std::iota(places.begin(), places.end(), 0);
+    return places;
+  }
+  const auto margin = static_cast<float>(area.margin_px);
+  const int columns = static_cast<int>((static_cast<float>(area.width) + 2 * margin) / kTile) + 2;
+  const int rows = static_cast<int>((static_cast<float>(area.height) + 2 * margin) / kTile) + 2;
+  std::vector<std::int32_t> tile(points.size()), counts(static_cast<std::size_t>(columns) * rows, 0);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    tile[k] = static_cast<std::int32_t>((points[k].pixel.y() + margin) * (1 / kTile)) * columns +
+              static_cast<std::int32_t>((points[k].pixel.x() + margin) * (1 / kTile));
+    ++counts[tile[k]];
+  }
+  const std::size_t quota = Quota(counts, budget);
+
+  // A point whose number lies far above its tile's quota cannot be drawn: what is sorted is little more than
+  // what is returned. The bound is four standard deviations above what the quota needs; should a tile come
+  // out short (it does not in practice), its points are all taken into the draw.
+  std::vector<std::uint64_t> bound(counts.size());
+  for (std::size_t t = 0; t < counts.size(); ++t) {
+    const double wanted = static_cast<double>(quota) + 1;
+    const double share = (wanted + 4 * std::sqrt(wanted) + 4) / std::max(counts[t], 1);
+    bound[t] = share >= 1 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(share * 0x1p64);
+  }
+  const std::uint64_t base = Mix(seed);
+  std::vector<std::vector<Draw>> draws(counts.size());
+  const auto draw = [&](bool everything) {
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const std::uint64_t number = Mix(base ^ static_cast<std::uint64_t>(points[k].id));
+      if (number > bound[tile[k]] && !everything) continue;
+      draws[tile[k]].push_back({number, points[k].id, static_cast<std::int32_t>(k)});
+    }
+  };
+  draw(false);
+  for (std::size_t t = 0; t < counts.size(); ++t) {
+    if (draws[t].size() >= std::min<std::size_t>(counts[t], quota + 1)) continue;
+    for (auto& d : draws) d.clear();
+    draw(true);
+    break;
+  }
+
+  std::vector<Draw> next;  // each rich tile's first point beyond the quota
+  places.reserve(budget);
+  for (auto& d : draws) {
+    const auto stop = d.begin() + static_cast<std::ptrdiff_t>(std::min(quota, d.size()));
+    if (stop != d.end()) {
+      std::nth_element(d.begin(), stop, d.end());
+      next.push_back(*stop);
+    }
+    std::sort(d.begin(), stop);
+    for (auto k = d.begin(); k != stop; ++k) places.push_back(k->place);
+  }
+  // Points that still fit: each from another of the tiles with more than the quota.
+  std::sort(next.begin(), next.end());
+  for (std::size_t k = 0; places.size() < budget && k < next.size(); ++k) places.push_back(next[k].place);
+  return places;
+}
+
+}  // namespace evit
