@@ -116,7 +116,7 @@ Rig LoadRig(const std::string& path) {
 }
 
 config::Tracker LoadTracker(const std::string& path) {
-  const auto c = Parse<config::Tracker>(path);
+  auto c = Parse<config::Tracker>(path);
   const auto positive = [&](double v, const char* name) {
     Require(v > 0 && std::isfinite(v), path, std::string(name) + ": must be positive");
   };

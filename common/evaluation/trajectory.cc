@@ -18,7 +18,8 @@ Trajectory ReadTum(const std::string& path) {
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
     const auto fail = [&](const std::string& what) {
-      throw std::runtime_error(path + ":" + std::to_string(number) + ": " + what);
+      throw std::runtime_error(
+          std::string(path).append(":").append(std::to_string(number)).append(": ").append(what));
     };
     std::replace(line.begin(), line.end(), ',', ' ');
     std::istringstream words(line);

@@ -72,8 +72,8 @@ TEST(AbsoluteError, NoiseOfKnownSizeAndUmeyamaIsTheBestFit) {
   // On a straight line the rotation about it is free; the fit must still be a rotation, not a mirror image.
   Trajectory line, flat;
   for (int k = 0; k < 100; ++k) {
-    line.push_back({k * 10'000, {Eigen::Quaterniond::Identity(), {0.1 * k, 0, 0}}});
-    flat.push_back({k * 10'000, {Eigen::Quaterniond::Identity(), {0, 0.1 * k, 0}}});
+    line.push_back({Utime{k} * 10'000, {Eigen::Quaterniond::Identity(), {0.1 * k, 0, 0}}});
+    flat.push_back({Utime{k} * 10'000, {Eigen::Quaterniond::Identity(), {0, 0.1 * k, 0}}});
   }
   EXPECT_LT(AbsoluteError(line, flat, Alignment::kUmeyama).position_rmse, 1e-9);
 }

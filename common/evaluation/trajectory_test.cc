@@ -66,7 +66,7 @@ TEST_F(TumFile, RoundTrip) {
   Trajectory written;
   for (int k = 0; k < 50; ++k) {
     written.push_back(
-        {1'642'661'138'000'000 + k * 8333, {ExpSO3({0.01 * k, -1, 0.3}), {k * 0.1, -2.0, 1e-4}}});
+        {1'642'661'138'000'000 + Utime{k} * 8333, {ExpSO3({0.01 * k, -1, 0.3}), {k * 0.1, -2.0, 1e-4}}});
   }
   WriteTum(path_, written);
   const Trajectory read = ReadTum(path_);

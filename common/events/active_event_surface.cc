@@ -53,6 +53,7 @@ void ActiveEventSurface::Update(const Utime* t, const std::uint16_t* x, const st
 void ActiveEventSurface::UpdateWithinBase(const Utime* t, const std::uint16_t* x, const std::uint16_t* y,
                                           const std::uint8_t* polarity, std::size_t n) {
   const auto width = static_cast<unsigned>(width_), height = static_cast<unsigned>(height_);
+  const auto pixels = static_cast<unsigned>(pixels_);
   const Utime base = base_;
   std::int32_t* const stamps = stamps_.data();
   std::int64_t outside = 0;
@@ -61,7 +62,7 @@ void ActiveEventSurface::UpdateWithinBase(const Utime* t, const std::uint16_t* x
       ++outside;
       continue;
     }
-    stamps[(polarity[i] != 0 ? pixels_ : 0) + y[i] * width_ + x[i]] = static_cast<std::int32_t>(t[i] - base);
+    stamps[(polarity[i] != 0 ? pixels : 0U) + y[i] * width + x[i]] = static_cast<std::int32_t>(t[i] - base);
   }
   outside_ += outside;
 }

@@ -49,7 +49,7 @@ class Reference {
     return best;
   }
   std::vector<double> Image(int polarities) const {
-    std::vector<double> drawn(kWidth * kHeight), rows = drawn, out = drawn;
+    std::vector<double> drawn(std::size_t{kWidth} * kHeight), rows = drawn, out = drawn;
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
         const double value = 255 * std::exp(-Distance(x, y, polarities) / decay_);
@@ -171,7 +171,7 @@ double Lag(double speed, Utime lookahead, double tail_px) {
   const SurfaceRenderer::Image image = renderer.Render(surface, view)[0];
   double sum = 0;
   for (int y = 3; y < 13; ++y) {
-    const std::uint8_t* row = image.data() + y * kWidth;
+    const std::uint8_t* row = image.data() + std::ptrdiff_t{y} * kWidth;
     const int x = static_cast<int>(std::min_element(row + 2, row + kWidth - 2) - row);
     const double a = row[x - 1], b = row[x], c = row[x + 1];  // vertex of the parabola through three values
     sum += x + 0.5 * (a - c) / (a - 2 * b + c) - edge(y, t);

@@ -5,9 +5,10 @@
 
 #include "common/geometry/camera.h"
 
-/// Loops over many points in blocks of kLanes, in single precision, written so that the compiler makes vectors
-/// of them. EVIT_MULTIVERSION compiles a function for AVX2 and for every x86-64, and the loader picks; both
-/// give the same bits, since every lane does the same IEEE operations (-ffp-contract=off, no reassociation).
+/// Loops over many points in blocks of kLanes, in single precision, written so that the compiler makes
+/// vectors of them. EVIT_MULTIVERSION compiles a function for AVX2 and for every x86-64, and the loader
+/// picks; both give the same bits, since every lane does the same IEEE operations (-ffp-contract=off, no
+/// reassociation).
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define EVIT_MULTIVERSION __attribute__((target_clones("default", "arch=haswell")))

@@ -59,7 +59,7 @@ TEST(Preintegration, BiasesAreSubtracted) {
 TEST(Preintegration, MidpointBeatsTheFirstOrderRule) {
   double midpoint = 0, first_order = 0;
   for (int k = 0; k < 100; ++k) {
-    const Utime begin = 40'000 * k;
+    const Utime begin = Utime{40'000} * k;
     const Preintegration fine(test::HandheldImu(begin, begin + 30'000, 20), {}, kNoise);
     const std::vector<ImuSample> samples = test::HandheldImu(begin, begin + 30'000, 5000);
     const Preintegration pre(samples, {}, kNoise);

@@ -35,19 +35,17 @@ EVIT_ALWAYS_INLINE std::size_t Block(const ViewProjector::View& view, const floa
   return kept;
 }
 
-// `out` has room for n points and one more.
+// `out` has room for n points and one more; x, y and z can be read for a block beyond n.
 template <Camera::Model kModel>
 EVIT_ALWAYS_INLINE std::size_t Blocks(const ViewProjector::View& view, const float* x, const float* y,
                                       const float* z, const std::int32_t* ids, std::size_t n,
                                       ProjectedPoint* out) {
-  std::size_t kept = 0, k = 0;
-  for (; k + kLanes <= n; k += kLanes) {
-    kept += Block<kModel>(view, x + k, y + k, z + k, ids + k, kLanes, out + kept);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < n; k += kLanes) {
+    const int lanes = n - k < kLanes ? static_cast<int>(n - k) : kLanes;
+    kept += Block<kModel>(view, x + k, y + k, z + k, ids + k, lanes, out + kept);
   }
-  if (k == n) return kept;
-  alignas(64) float rest[3][kLanes] = {};
-  for (std::size_t l = 0; k + l < n; ++l) rest[0][l] = x[k + l], rest[1][l] = y[k + l], rest[2][l] = z[k + l];
-  return kept + Block<kModel>(view, rest[0], rest[1], rest[2], ids + k, static_cast<int>(n - k), out + kept);
+  return kept;
 }
 
 EVIT_MULTIVERSION std::size_t PlumbBobBlocks(const ViewProjector::View& view, const float* x, const float* y,
@@ -66,7 +64,10 @@ EVIT_MULTIVERSION std::size_t EquidistantBlocks(const ViewProjector::View& view,
 
 ViewProjector::ViewProjector(const Camera& camera, const SE3& T_camera_world, double margin_px,
                              double min_depth, double max_depth)
-    : view_{LaneCamera(camera), camera.model == Camera::Model::kEquidistant, {}, {},
+    : view_{LaneCamera(camera),
+            camera.model == Camera::Model::kEquidistant,
+            {},
+            {},
             static_cast<float>(-margin_px),
             static_cast<float>(camera.width - 1 + margin_px),
             static_cast<float>(-margin_px),
@@ -83,8 +84,8 @@ ViewProjector::ViewProjector(const Camera& camera, const SE3& T_camera_world, do
 std::size_t ViewProjector::Project(const PointArrays& points, const std::int32_t* ids, std::size_t begin,
                                    std::size_t end, ProjectedPoint* seen) const {
   const auto run = view_.fisheye ? EquidistantBlocks : PlumbBobBlocks;
-  return run(view_, points.x.data() + begin, points.y.data() + begin, points.z.data() + begin, ids + begin,
-             end - begin, seen);
+  return run(view_, points.x() + begin, points.y() + begin, points.z() + begin, ids + begin, end - begin,
+             seen);
 }
 
 }  // namespace evit

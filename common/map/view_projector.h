@@ -9,13 +9,24 @@
 
 namespace evit {
 
-/// Points as three arrays, for loops over lanes.
-struct PointArrays {
-  std::vector<float> x, y, z;  // m
-  std::size_t size() const { return x.size(); }
-  void Resize(std::size_t n) { x.resize(n), y.resize(n), z.resize(n); }
-  void Set(std::size_t k, const Eigen::Vector3f& p) { x[k] = p.x(), y[k] = p.y(), z[k] = p.z(); }
-  Eigen::Vector3f At(std::size_t k) const { return {x[k], y[k], z[k]}; }
+/// Points as three arrays, for loops over lanes: with a block more than there are points, so that a loop may
+/// read whole blocks from any place.
+class PointArrays {
+ public:
+  std::size_t size() const { return n_; }
+  void Resize(std::size_t n) {
+    n_ = n;
+    for (std::vector<float>* v : {&x_, &y_, &z_}) v->resize(n + kLanes);
+  }
+  void Set(std::size_t k, const Eigen::Vector3f& p) { x_[k] = p.x(), y_[k] = p.y(), z_[k] = p.z(); }
+  Eigen::Vector3f At(std::size_t k) const { return {x_[k], y_[k], z_[k]}; }
+  const float* x() const { return x_.data(); }  // m
+  const float* y() const { return y_.data(); }
+  const float* z() const { return z_.data(); }
+
+ private:
+  std::size_t n_ = 0;
+  std::vector<float> x_, y_, z_;
 };
 
 /// Projects many points into one view, in single precision (errors below 1e-3 pixels in rooms).

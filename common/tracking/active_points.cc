@@ -15,8 +15,8 @@ constexpr double kAnyDepth = 1e30;
 
 }  // namespace
 
-ActivePoints::ActivePoints(Camera camera, SE3 T_camera_body, std::uint64_t seed)
-    : camera_(std::move(camera)), T_camera_body_(std::move(T_camera_body)), seed_(seed) {}
+ActivePoints::ActivePoints(const Camera& camera, const SE3& T_camera_body, std::uint64_t seed)
+    : camera_(camera), T_camera_body_(T_camera_body), seed_(seed) {}
 
 void ActivePoints::Clear() {
   ids_.clear();

@@ -14,7 +14,7 @@ namespace evit {
 /// frustum of the predicted pose.
 class ActivePoints {
  public:
-  ActivePoints(Camera camera, SE3 T_camera_body, std::uint64_t seed);
+  ActivePoints(const Camera& camera, const SE3& T_camera_body, std::uint64_t seed);
 
   /// Adds what the wider frustum of a predicted pose shows (map server's answer). ids: indices into the map.
   void Merge(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& points);

@@ -21,8 +21,8 @@ struct AlignmentLanes {
   float inverse_c2, c;  // of the kernel's scale
 };
 
-/// Sums over blocks of points: cost, and gradient and Hessian (upper triangle, row by row) over (position in the
-/// body frame, rotation), each kept by lane so that the order of additions is the same on every machine.
+/// Sums over blocks of points: cost, and gradient and Hessian (upper triangle, row by row) over (position in
+/// the body frame, rotation), each kept by lane so that the order of additions is the same on every machine.
 struct AlignmentSums {
   double rho = 0;
   alignas(64) float gradient[6][kLanes] = {};
@@ -34,7 +34,7 @@ void SumAlignment(const AlignmentLanes& lanes, const PointArrays& points, bool d
 
 /// Values under points, and the mean of the four places `shift` pixels beside each. `inside`: 0 where a point
 /// is not in the image. Arrays of points.size() rounded up to whole blocks.
-void SampleBeside(const AlignmentLanes& lanes, const PointArrays& points, float width, float height, float shift,
-                  float* value, float* beside, std::int32_t* inside);
+void SampleBeside(const AlignmentLanes& lanes, const PointArrays& points, float width, float height,
+                  float shift, float* value, float* beside, std::int32_t* inside);
 
 }  // namespace evit

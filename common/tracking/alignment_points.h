@@ -7,8 +7,8 @@
 
 namespace evit {
 
-/// Map points of one keyframe as the solver wants them: in single precision, relative to a point among them, so
-/// that nothing is lost where the map's origin is far away.
+/// Map points of one keyframe as the solver wants them: in single precision, relative to a point among them,
+/// so that nothing is lost where the map's origin is far away.
 class AlignmentPoints {
  public:
   AlignmentPoints() = default;

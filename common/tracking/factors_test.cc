@@ -42,6 +42,7 @@ TEST(EventAlignment, GradientMatchesNumericDerivative) {
     const auto room = synthetic::RoomPoints();
     for (const Frame& frame : Frames()) {
       std::vector<Eigen::Vector3f> points;
+      points.reserve(room.size());
       for (const auto& p : room) points.push_back((frame.T_map_room * p.cast<double>()).cast<float>());
       const SurfaceField field(synthetic::DrawSurface(settings, points, frame.T_map_room), 2);
       const SE3 pose = frame.T_map_room * SE3(ExpSO3({0.004, -0.003, 0.005}), {0.006, -0.008, 0.004});

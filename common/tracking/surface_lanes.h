@@ -18,7 +18,7 @@ struct LaneField {
 
 struct FieldLanes {
   alignas(64) float value[kLanes];
-  alignas(64) float gx[kLanes], gy[kLanes];                   // per pixel of level 0
+  alignas(64) float gx[kLanes], gy[kLanes];                 // per pixel of level 0
   alignas(64) float hxx[kLanes], hxy[kLanes], hyy[kLanes];  // per squared pixel
 };
 
@@ -34,7 +34,9 @@ EVIT_ALWAYS_INLINE void SampleLanes(const LaneField& field, const float* u, cons
     const float low_x = x > 1 ? x : 1, low_y = y > 1 ? y : 1;
     const float cx = low_x < field.max_x ? low_x : field.max_x;
     const float cy = low_y < field.max_y ? low_y : field.max_y;
-    const int i = static_cast<int>(cx + 0.5F), j = static_cast<int>(cy + 0.5F);
+    const auto i =
+        static_cast<int>(cx + 0.5F);  // NOLINT(bugprone-incorrect-roundings): positive, and lround is slow
+    const auto j = static_cast<int>(cy + 0.5F);  // NOLINT(bugprone-incorrect-roundings)
     a[l] = cx - static_cast<float>(i);
     b[l] = cy - static_cast<float>(j);
     across_x[l] = cx == x ? 1 : 0;
@@ -45,7 +47,7 @@ EVIT_ALWAYS_INLINE void SampleLanes(const LaneField& field, const float* u, cons
     const std::uint8_t* const corner = field.data + offset[l];
     std::memcpy(&row[0][l], corner, 4);
     std::memcpy(&row[1][l], corner + field.step, 4);
-    std::memcpy(&row[2][l], corner + 2 * field.step, 4);
+    std::memcpy(&row[2][l], corner + field.step + field.step, 4);
   }
   for (int l = 0; l < kLanes; ++l) {
     // Weights of the three taps around a place a from the middle one; their derivatives below.

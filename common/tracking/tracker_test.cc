@@ -173,7 +173,7 @@ TEST(Bootstrap, FindsVelocitiesAndBiasesFromNoisyPoses) {
       const Utime t = 1'000'000 + k * 10'000;
       SE3 pose = motion.State(ToSeconds(t)).T_world_body;
       Eigen::Matrix<double, 6, 1> d;
-      for (int c = 0; c < 6; ++c) d[c] = pose_noise * (c < 3 ? 0.002 : 0.002) * n(rng);
+      for (int c = 0; c < 6; ++c) d[c] = pose_noise * 0.002 * n(rng);
       pose = pose.Plus(d);
       std::shared_ptr<Preintegration> imu;
       if (k > 0)

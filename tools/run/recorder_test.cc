@@ -28,7 +28,7 @@ class RecorderTest : public ::testing::Test {
     m.mode = tracker_mode_t::TRACKING;
     for (int k = first; k <= last; ++k) {
       node_state_t node{};
-      node.utime = 10'000 * (k + 1);
+      node.utime = Utime{10'000} * (k + 1);
       node.keyframe_seq = k;
       node.position[0] = 100 * k + x;
       node.orientation[3] = 1;

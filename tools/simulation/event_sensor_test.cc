@@ -108,7 +108,7 @@ TEST(EventSensor, KeepsTheRefractoryTime) {
 
 TEST(EventSensor, ConstantLightIsSilent) {
   EventSensor sensor(32, 32, Ideal(), 1);
-  const std::vector<float> image(32 * 32, 77.0F);
+  const std::vector<float> image(std::size_t{32} * 32, 77.0F);
   std::vector<Event> events;
   sensor.Start(0, 32, image.data());
   for (int t = 0; t < 100'000; t += 5000) sensor.Step(0, 32, image.data(), t, t + 5000, &events);
@@ -122,7 +122,7 @@ TEST(NoiseSource, HasItsRateAndHotPixels) {
   NoiseSource noise(100, 80, settings, 5);
   std::vector<Event> events;
   for (int t = 7000; t <= 10'000'000; t += 7000) noise.Until(t, &events);
-  std::vector<int> counts(100 * 80, 0);
+  std::vector<int> counts(std::size_t{100} * 80, 0);
   for (const Event& event : events) ++counts[event.y * 100 + event.x];
   EXPECT_EQ(std::count_if(counts.begin(), counts.end(), [](int n) { return n > 1500; }), 3);
   const double background = std::count_if(events.begin(), events.end(),

@@ -61,7 +61,7 @@ TEST(PoseSpline, DerivativesAreThoseOfItsPoses) {
 TEST(PoseSpline, AccelerationHasNoStepsAtKnots) {
   const PoseSpline spline = PoseSpline::Fit(WaveTrajectory(3), 0.033);
   for (int knot = 5; knot < 80; ++knot) {
-    const Utime t = spline.begin() + knot * 33'000;
+    const Utime t = spline.begin() + Utime{knot} * 33'000;
     const Eigen::Vector3d step = spline.Evaluate(t + 1).acceleration - spline.Evaluate(t - 1).acceleration;
     EXPECT_LT(step.norm(), 1e-3);
   }

@@ -121,7 +121,7 @@ TEST(EdgeMap, PointsLieOnSurfaces) {
   for (int i = 0; i < 60; ++i) {
     SE3 pose = Pose(0.02 * i, 0.1, 0);
     pose.p.y() += 0.005 * i;
-    poses.push_back({i * 10'000, pose});
+    poses.push_back({Utime{i} * 10'000, pose});
   }
   const PoseSpline motion = PoseSpline::Fit(poses, 0.05);
   MapSettings settings;

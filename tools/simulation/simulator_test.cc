@@ -158,7 +158,7 @@ TEST_F(SimulatorTest, LampMakesABurst) {
   settings_.lamp_on_s = 0.4;
   settings_.out = (folder_ / "b").string();
   const SimulationSummary burst = Simulate(settings_, rig_, "test", nullptr);
-  const std::size_t pixels = 160 * 120;
+  const std::size_t pixels = std::size_t{160} * 120;
   EXPECT_GT(burst.events.negative, calm.events.negative + 2 * pixels);
   EXPECT_GT(burst.events.positive, calm.events.positive + 2 * pixels);
 }

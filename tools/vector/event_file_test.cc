@@ -34,7 +34,7 @@ class EventFileTest : public ::testing::Test {
     return events;
   }
   std::string Write(const EventArray& events) {
-    const std::string path = Path("events.hdf5");
+    std::string path = Path("events.hdf5");
     EventFileWriter writer(path, kOffset);
     writer.Append(events);
     writer.Close();

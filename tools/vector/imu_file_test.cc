@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 std::string Write(const std::string& text) {
-  const std::string path = ::testing::TempDir() + "/imu_file_test_" + std::to_string(::getpid()) + ".txt";
+  std::string path = ::testing::TempDir() + "/imu_file_test_" + std::to_string(::getpid()) + ".txt";
   std::ofstream(path) << text;
   return path;
 }
@@ -34,10 +34,9 @@ TEST(ImuFile, NamesTheLineOfABadRow) {
   for (const auto& [row, what] :
        {std::pair("1.005 0 0 0 0\n", "seven"), std::pair("x 0 0 0 0 0 0\n", "decimal"),
         std::pair("1.005 0 0 nan 0 0 0\n", "finite"), std::pair("0.9 0 0 0 0 0 0\n", "increase")}) {
-    EXPECT_THAT([&] { ReadImuFile(Write(kHead + good + row)); },
-                ThrowsMessage<std::runtime_error>(HasSubstr(":5: ")));
-    EXPECT_THAT([&] { ReadImuFile(Write(kHead + good + row)); },
-                ThrowsMessage<std::runtime_error>(HasSubstr(what)));
+    const auto read = [text = kHead + good + row] { ReadImuFile(Write(text)); };
+    EXPECT_THAT(read, ThrowsMessage<std::runtime_error>(HasSubstr(":5: ")));
+    EXPECT_THAT(read, ThrowsMessage<std::runtime_error>(HasSubstr(what)));
   }
   EXPECT_THROW(ReadImuFile(Write(kHead)), std::runtime_error);
   EXPECT_THROW(ReadImuFile("/no/such/file"), std::runtime_error);
