@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <opencv2/core.hpp>
 #include <vector>
 
 #include "common/config/tracker.pb.h"
 #include "common/events/active_event_surface.h"
 #include "common/events/event.h"
+#include "common/events/surface_rows.h"
 
 namespace evit {
 
@@ -37,21 +37,17 @@ class SurfaceRenderer {
   std::vector<Image> Render(const ActiveEventSurface& surface, const View& view);
 
  private:
-  void FillDistances(const ActiveEventSurface& surface, const View& view, bool first, bool second,
-                     std::vector<std::int32_t>* distances) const;
-  void FindNear(const std::vector<std::int32_t>& distances, double decay_us);
-  void MakeTable(double decay_us);
-  Image Draw(const std::vector<std::int32_t>& distances);
+  using Plane = std::vector<std::uint16_t>;
+  void FillDistances(const ActiveEventSurface& surface, const View& view, bool darker, bool brighter,
+                     Plane* distances) const;
 
   int width_, height_;
-  double truncation_, sigma_;
+  double truncation_;
   bool split_, support_;
-  std::vector<std::int32_t> distances_[2];  // us to the nearest event
-  std::vector<std::uint8_t> near_;          // [height + 2][width + 2]: an event close in time
-  std::vector<std::uint8_t> table_;         // T by distance >> shift_; last: none
-  std::int32_t max_distance_ = 0;           // us; beyond: T = 0
-  int shift_ = 0;
-  cv::Mat image_;
+  int shift_ = 0;       // distances are in units of 2^shift us
+  Plane distances_[2];  // to the nearest event of each polarity, or of both
+  Plane nearest_;       // of both, where they are split
+  SurfacePass pass_;
 };
 
 }  // namespace evit

@@ -11,7 +11,7 @@
 /// reassociation).
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
-#define EVIT_MULTIVERSION __attribute__((target_clones("default", "arch=haswell")))
+#define EVIT_MULTIVERSION __attribute__((target_clones("default", "avx2")))
 #else  // the sanitizers' start-up does not bear the loader's choice
 #define EVIT_MULTIVERSION
 #endif

@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <opencv2/core/utility.hpp>
 
 #include "common/bus/lcm_bus.h"
 #include "common/config/config.h"
@@ -19,7 +18,6 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
   }
-  cv::setNumThreads(1);  // an image takes a fraction of a millisecond: waking threads costs more
   evit::FrameBuilder::Settings settings;
   settings.rig = evit::LoadRig(rig);
   settings.tracker = evit::LoadTracker(config);

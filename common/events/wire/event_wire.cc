@@ -1,5 +1,6 @@
 #include "common/events/wire/event_wire.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -9,17 +10,22 @@ namespace {
 constexpr int kMaxCoordinate = std::numeric_limits<std::int16_t>::max();
 
 std::size_t EndOfPacket(const EventArray& events, std::size_t begin) {
-  std::size_t end = begin;
-  while (end < events.size() && end - begin < kPacketEvents &&
-         events.t[end] - events.t[begin] <= std::numeric_limits<std::int32_t>::max()) {
-    ++end;
-  }
-  return end;
+  const std::size_t end = std::min(events.size(), begin + kPacketEvents);
+  const Utime last = events.t[begin] + std::numeric_limits<std::int32_t>::max();
+  if (events.t[end - 1] <= last) return end;
+  const auto first = events.t.begin();
+  return static_cast<std::size_t>(std::upper_bound(first + static_cast<std::ptrdiff_t>(begin),
+                                                   first + static_cast<std::ptrdiff_t>(end), last) -
+                                  first);
 }
 
-}  // namespace
-
-std::vector<event_packet_t> ToPackets(const EventArray& events, std::int64_t epoch, std::int64_t first_seq) {
+// One pass without branches; what is wrong is looked for only where something is.
+void CheckOrder(const EventArray& events) {
+  bool fine = true;
+  for (std::size_t i = 1; i < events.size(); ++i) fine &= events.t[i - 1] <= events.t[i];
+  unsigned largest = 0;
+  for (std::size_t i = 0; i < events.size(); ++i) largest |= static_cast<unsigned>(events.x[i] | events.y[i]);
+  if (fine && largest <= kMaxCoordinate) return;
   for (std::size_t i = 0; i < events.size(); ++i) {
     if (i > 0 && events.t[i] < events.t[i - 1]) {
       throw std::invalid_argument("event " + std::to_string(i) +
@@ -29,18 +35,26 @@ std::vector<event_packet_t> ToPackets(const EventArray& events, std::int64_t epo
       throw std::invalid_argument("event " + std::to_string(i) + ": pixel coordinate above 32767");
     }
   }
+}
+
+}  // namespace
+
+std::vector<event_packet_t> ToPackets(const EventArray& events, std::int64_t epoch, std::int64_t first_seq) {
+  CheckOrder(events);
   std::vector<event_packet_t> packets;
   for (std::size_t begin = 0; begin < events.size();) {
     const std::size_t end = EndOfPacket(events, begin);
     event_packet_t packet = EmptyPacket(events.t[begin], epoch, first_seq++);
     packet.n = static_cast<std::int32_t>(end - begin);
-    packet.dt_us.reserve(end - begin);
-    for (std::size_t i = begin; i < end; ++i) {
-      packet.dt_us.push_back(static_cast<std::int32_t>(events.t[i] - events.t[begin]));
+    const std::size_t n = end - begin;
+    packet.dt_us.resize(n), packet.x.resize(n), packet.y.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      packet.dt_us[i] = static_cast<std::int32_t>(events.t[begin + i] - events.t[begin]);
     }
-    packet.x.assign(events.x.begin() + begin, events.x.begin() + end);
-    packet.y.assign(events.y.begin() + begin, events.y.begin() + end);
-    packet.polarity.assign(events.p.begin() + begin, events.p.begin() + end);
+    std::copy_n(events.x.begin() + static_cast<std::ptrdiff_t>(begin), n, packet.x.begin());
+    std::copy_n(events.y.begin() + static_cast<std::ptrdiff_t>(begin), n, packet.y.begin());
+    packet.polarity.assign(events.p.begin() + static_cast<std::ptrdiff_t>(begin),
+                           events.p.begin() + static_cast<std::ptrdiff_t>(end));
     packets.push_back(std::move(packet));
     begin = end;
   }
