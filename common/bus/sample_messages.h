@@ -77,6 +77,7 @@ inline keyframe_t Sample<keyframe_t>(int n) {
   m.high_rate = 1;
   m.n_events = 10'000;
   m.decay_us = 20'000;
+  m.lookahead_us = 40'000;
   m.width = n + 3;
   m.height = 4;
   m.n_surfaces = 2;
@@ -182,6 +183,7 @@ inline tracker_mode_t Sample<tracker_mode_t>(int /*n*/) {
   m.reason = "too few points";
   m.gyro_bias[2] = 0.006;
   m.image_speed = 120;
+  m.keyframe_stride = 2;
   return m;
 }
 
@@ -204,6 +206,7 @@ inline window_state_t Sample<window_state_t>(int n) {
   m.inlier_share = 0.8;
   m.mean_cost = 90;
   m.n_iterations = 4;
+  m.lookahead_us = 12'000;
   m.solve_ms = 3;
   m.total_ms = 5;
   return m;

@@ -96,6 +96,7 @@ bool Validate(const keyframe_t& m, std::string* why) {
       .That(m.n_events >= 0, "n_events is negative")
       .Finite("decay_us", m.decay_us)
       .That(m.decay_us > 0, "decay_us is not positive")
+      .That(m.lookahead_us >= 0 && m.lookahead_us <= kMaxTime, "lookahead_us is negative")
       .That(m.width > 0 && m.width <= kMaxImageSide, "width is out of range")
       .That(m.height > 0 && m.height <= kMaxImageSide, "height is out of range")
       .That(m.n_surfaces >= 1, "n_surfaces is 0")
@@ -175,6 +176,7 @@ bool Validate(const tracker_mode_t& m, std::string* why) {
       .Finite("accel_bias", m.accel_bias)
       .Finite("image_speed", m.image_speed)
       .That(m.image_speed >= 0, "image_speed is negative")
+      .That(m.keyframe_stride >= 1 && m.keyframe_stride <= 100, "keyframe_stride is not 1..100")
       .ok();
 }
 
@@ -196,6 +198,7 @@ bool Validate(const window_state_t& m, std::string* why) {
       .That(m.n_points >= 0, "n_points is negative")
       .That(m.inlier_share >= 0 && m.inlier_share <= 1, "inlier_share is not 0..1")
       .Finite("mean_cost", m.mean_cost)
+      .That(m.lookahead_us >= 0 && m.lookahead_us <= kMaxTime, "lookahead_us is negative")
       .Finite("solve_ms", m.solve_ms)
       .Finite("total_ms", m.total_ms)
       .ok();

@@ -83,6 +83,9 @@ TEST(Validate, Map) {
 TEST(Validate, TrackerAndWindow) {
   ExpectRefused<tracker_mode_t>("mode", [](auto* m) { m->mode = 3; });
   ExpectRefused<tracker_mode_t>("keyframe_seq", [](auto* m) { m->keyframe_seq = -2; });
+  ExpectRefused<tracker_mode_t>("keyframe_stride", [](auto* m) { m->keyframe_stride = 0; });
+  ExpectRefused<tracker_mode_t>("keyframe_stride", [](auto* m) { m->keyframe_stride = kNaN; });
+  ExpectRefused<keyframe_t>("lookahead_us", [](auto* m) { m->lookahead_us = -1; });
   ExpectRefused<tracker_mode_t>("image_speed", [](auto* m) { m->image_speed = kNaN; });
   ExpectRefused<window_state_t>("mode", [](auto* m) { m->mode = -1; });
   ExpectRefused<window_state_t>("nodes", [](auto* m) { m->node[2].utime = m->node[1].utime; });

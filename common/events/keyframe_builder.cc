@@ -78,7 +78,8 @@ void KeyframeBuilder::LimitMemory() {
 std::optional<Keyframe> KeyframeBuilder::Next() {
   do {
     // Drawn as soon as it can be, so that feedback on it can come before the next is decided.
-    if (!pending_.empty() && merger_.Knows(pending_.front().keyframe.utime + pending_.front().lookahead)) {
+    if (!pending_.empty() &&
+        merger_.Knows(pending_.front().keyframe.utime + pending_.front().keyframe.lookahead)) {
       Pending pending = std::move(pending_.front());
       pending_.pop_front();
       return Draw(std::move(pending));
@@ -109,7 +110,7 @@ bool KeyframeBuilder::Decide() {
       return false;
     }
     const auto due =
-        policy_.Due({feedback->mode, last_, sample.t, last_raw_.t,
+        policy_.Due({feedback->mode, feedback->keyframe_stride, last_, sample.t, last_raw_.t,
                      merger_.PositionAfter(sample.t) - last_position_, static_cast<int>(imu_.size())});
     if (due) {
       Push(*due, sample, *feedback);
@@ -163,7 +164,7 @@ void KeyframeBuilder::Push(Utime stamp, const ImuSample& sample, const TrackerFe
     k.imu_gap = std::max(gap_, sample.t - last_raw_.t);
   }
   // Later events than this would not show: the faster the motion, the shorter the wait.
-  pending.lookahead = std::min(lookahead_, static_cast<Utime>(VisibleUs(k.decay_us, truncation_)));
+  k.lookahead = std::min(lookahead_, static_cast<Utime>(VisibleUs(k.decay_us, truncation_)));
   pending.bias = feedback.bias;
   pending_.push_back(std::move(pending));
 
@@ -196,7 +197,7 @@ Keyframe KeyframeBuilder::Draw(Pending pending) {
   view.decay_us = k.decay_us;
   view.after = &merger_.events();
   view.begin = merger_.IndexOf(merger_.first());
-  view.end = merger_.IndexOf(merger_.PositionAfter(k.utime + pending.lookahead));
+  view.end = merger_.IndexOf(merger_.PositionAfter(k.utime + k.lookahead));
   view.ignored = &hot_pixels_.pixels();
   k.surfaces = renderer_.Render(surface_, view);
   k.render_ms = watch.Lap();

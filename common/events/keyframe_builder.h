@@ -24,6 +24,7 @@ struct Keyframe {
   bool high_rate = false;
   std::int64_t n_events = 0;
   double decay_us = 0;
+  Utime lookahead = 0;  // us: events up to utime + this count
   int width = 0, height = 0;
   std::vector<SurfaceRenderer::Image> surfaces;
   std::vector<ImuSample> imu;  // from previous_utime to utime, both interpolated where needed; empty if first
@@ -71,7 +72,6 @@ class KeyframeBuilder {
   struct Pending {  // decided, not drawn yet
     Keyframe keyframe;
     std::int64_t position;  // events before it belong to the surface
-    Utime lookahead;
     ImuBias bias;
   };
   bool Decide();

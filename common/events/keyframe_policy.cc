@@ -29,7 +29,8 @@ std::optional<Utime> KeyframePolicy::Due(const Situation& s) const {
     if (stamp > s.imu) return std::nullopt;
     return stamp > s.imu_before && s.imu - s.imu_before > kImuHole ? s.imu : stamp;
   }
-  const bool enough = s.n_events >= n_event_ && s.n_imu >= n_imu_;
+  const bool enough = static_cast<double>(s.n_events) >= s.stride * static_cast<double>(n_event_) &&
+                      s.n_imu >= s.stride * n_imu_;
   const bool late = s.imu - s.last >= max_interval_ && s.n_events >= min_events_;
   if (enough || late) return s.imu;
   return std::nullopt;

@@ -12,7 +12,8 @@ struct TrackerFeedback {
   enum class Mode { kBootstrapping = 0, kTracking = 1, kLost = 2 };
   Mode mode = Mode::kBootstrapping;
   ImuBias bias;
-  double image_speed = 0;  // pixels/s; 0: unknown
+  double image_speed = 0;      // pixels/s; 0: unknown
+  double keyframe_stride = 1;  // in overload: so many times more events and samples for each keyframe
 };
 
 /// When a keyframe is due, and with which decay its surface is drawn. Pure: no state, no clock.
@@ -22,6 +23,7 @@ class KeyframePolicy {
 
   struct Situation {
     TrackerFeedback::Mode mode = TrackerFeedback::Mode::kBootstrapping;
+    double stride = 1;
     Utime last = 0;             // stamp of the last keyframe (or where the streams began)
     Utime imu = 0;              // stamp of the newest IMU sample, > last
     Utime imu_before = 0;       // of the one before it

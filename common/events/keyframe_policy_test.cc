@@ -12,7 +12,7 @@ using Mode = TrackerFeedback::Mode;
 class KeyframePolicyTest : public ::testing::Test {
  protected:
   static KeyframePolicy::Situation At(Mode mode, Utime imu, std::int64_t n_events, int n_imu) {
-    return {mode, 1'000'000, imu, imu - 5'000, n_events, n_imu};
+    return {mode, 1, 1'000'000, imu, imu - 5'000, n_events, n_imu};
   }
   // 1500 events, 4 samples, 60 ms with 200 events; high rate: 7.3 ms.
   KeyframePolicy policy_{test::SmallConfig().keyframes(), test::SmallConfig().surface()};
@@ -22,6 +22,16 @@ TEST_F(KeyframePolicyTest, TrackingNeedsEnoughEventsAndEnoughSamples) {
   EXPECT_FALSE(policy_.Due(At(Mode::kTracking, 1'020'000, 1'499, 4)));
   EXPECT_FALSE(policy_.Due(At(Mode::kTracking, 1'015'000, 90'000, 3)));
   EXPECT_EQ(policy_.Due(At(Mode::kTracking, 1'020'000, 1'500, 4)), 1'020'000);
+}
+
+TEST_F(KeyframePolicyTest, InOverloadTheyTakeMoreOfBoth) {
+  auto s = At(Mode::kTracking, 1'040'000, 2'999, 8);
+  s.stride = 2;
+  EXPECT_FALSE(policy_.Due(s));
+  s.n_events = 3'000;
+  EXPECT_EQ(policy_.Due(s), 1'040'000);
+  s.n_imu = 7;
+  EXPECT_FALSE(policy_.Due(s));
 }
 
 TEST_F(KeyframePolicyTest, SlowMotionMakesAKeyframeInTheEndIfAnythingMoves) {
@@ -39,7 +49,7 @@ TEST_F(KeyframePolicyTest, HighRateStampsLieBetweenSamples) {
 }
 
 TEST_F(KeyframePolicyTest, NothingIsInterpolatedInsideAHoleOfTheImu) {
-  EXPECT_EQ(policy_.Due({Mode::kLost, 1'000'000, 1'500'000, 1'005'000, 0, 2}), 1'500'000);
+  EXPECT_EQ(policy_.Due({Mode::kLost, 1, 1'000'000, 1'500'000, 1'005'000, 0, 2}), 1'500'000);
 }
 
 TEST_F(KeyframePolicyTest, DecayFollowsTheImageSpeed) {

@@ -25,13 +25,14 @@ EVIT_MULTIVERSION void NearRow(const std::uint16_t* __restrict d, int n, std::ui
 
 // Rows have a pixel more on each side. out: 255 where a neighbour is near.
 EVIT_MULTIVERSION void SupportRow(const std::uint8_t* __restrict above, const std::uint8_t* __restrict here,
-                                  const std::uint8_t* __restrict below, int n, std::uint8_t* __restrict column,
-                                  std::uint8_t* __restrict out) {
+                                  const std::uint8_t* __restrict below, int n,
+                                  std::uint8_t* __restrict column, std::uint8_t* __restrict out) {
   for (int x = 0; x < n + 2; ++x) column[x] = above[x] | here[x] | below[x];
   for (int x = 0; x < n; ++x) out[x] = column[x] | column[x + 2] | above[x + 1] | below[x + 1];
 }
 
-// What cannot be seen, be it too far in time or unsupported, becomes `unseen`, one unit beyond the last visible.
+// What cannot be seen, be it too far in time or unsupported, becomes `unseen`, one unit beyond the last
+// visible.
 EVIT_MULTIVERSION void VisibleRow(const std::uint16_t* __restrict d, const std::uint8_t* __restrict supported,
                                   int n, std::uint16_t unseen, std::uint16_t* __restrict out) {
   for (int x = 0; x < n; ++x) {
@@ -62,7 +63,8 @@ EVIT_ALWAYS_INLINE std::uint16_t Pair(std::uint16_t a, std::uint16_t b) {
   return static_cast<std::uint16_t>(a + b);  // at most 2 * 255 * 128: no overflow
 }
 
-// Symmetric convolution of n values, centre and w[k] (of 65536) at distance k: the default's radius written out.
+// Symmetric convolution of n values, centre and w[k] (of 65536) at distance k: the default's radius written
+// out.
 EVIT_ALWAYS_INLINE void Convolve3(const std::uint16_t* const* rows, int n, const std::uint16_t* w,
                                   std::uint16_t* __restrict out) {
   const std::uint16_t *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3];
@@ -102,8 +104,8 @@ EVIT_MULTIVERSION void NegateRow(const std::uint16_t* __restrict in, int n, std:
 
 }  // namespace
 
-void QuantizeDistances(const std::int32_t* a, const std::int32_t* b, std::size_t n, std::int32_t now, int shift,
-                       std::uint16_t* out) {
+void QuantizeDistances(const std::int32_t* a, const std::int32_t* b, std::size_t n, std::int32_t now,
+                       int shift, std::uint16_t* out) {
   Quantize(a, b, n, now, shift, out);
 }
 
@@ -130,7 +132,9 @@ SurfacePass::SurfacePass(int width, int height, double sigma)
 
 void SurfacePass::Drawn(const std::uint16_t* distances, const std::uint16_t* neighbours, int y,
                         const Decay& decay) {
-  const auto near_row = [&](int row) { return near_.data() + static_cast<std::size_t>(row % 3) * (stride_ + 2); };
+  const auto near_row = [&](int row) {
+    return near_.data() + static_cast<std::size_t>(row % 3) * (stride_ + 2);
+  };
   const auto fill = [&](int row) {
     std::uint8_t* const to = near_row(row + 3) + 1;
     if (row < 0 || row >= height_) {
@@ -160,7 +164,8 @@ void SurfacePass::Run(const std::uint16_t* distances, const std::uint16_t* neigh
   // e^-u on [0, 0.8] by a polynomial of fourth degree (Chebyshev nodes; 7e-6), u = d / (8 decay).
   constexpr double kSeries[] = {0.99999615, -0.99975897, 0.49755438, -0.15782825, 0.02811673};
   double scale = std::pow(255.0 * 128.0, 0.125);
-  for (int k = 0; k < 5; ++k, scale *= decay.rate / 8) coefficients_[k] = static_cast<float>(scale * kSeries[k]);
+  for (int k = 0; k < 5; ++k, scale *= decay.rate / 8)
+    coefficients_[k] = static_cast<float>(scale * kSeries[k]);
   least_ = DecayAt(static_cast<float>(decay.max_distance + 1), coefficients_);
   if (!decay.support) std::fill(supported_.begin(), supported_.end(), std::uint8_t{255});
   const int rows = 2 * radius_ + 1;

@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <vector>
 
-/// The inner loops of the time surface: one fused pass from distances in time to the blurred, negated image, a
-/// few rows at a time, so that everything in between stays in the first-level cache.
+/// The inner loops of the time surface: one fused pass from distances in time to the blurred, negated image,
+/// a few rows at a time, so that everything in between stays in the first-level cache.
 namespace evit {
 
-/// Distances in time as 16-bit multiples of 2^shift us, limited to 65535: a plane fits the second-level cache.
-/// out[i] = now - newest of the two planes' stamps.
-void QuantizeDistances(const std::int32_t* a, const std::int32_t* b, std::size_t n, std::int32_t now, int shift,
-                       std::uint16_t* out);
+/// Distances in time as 16-bit multiples of 2^shift us, limited to 65535: a plane fits the second-level
+/// cache. out[i] = now - newest of the two planes' stamps.
+void QuantizeDistances(const std::int32_t* a, const std::int32_t* b, std::size_t n, std::int32_t now,
+                       int shift, std::uint16_t* out);
 
 class SurfacePass {
  public:

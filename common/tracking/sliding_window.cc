@@ -73,6 +73,7 @@ SlidingWindow::Summary SlidingWindow::Solve() {
   options.max_num_iterations = config_.max_iterations();
   options.function_tolerance = 1e-5;
   options.logging_type = ceres::SILENT;
+  if (time_budget_ > 0) options.max_solver_time_in_seconds = time_budget_;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
 

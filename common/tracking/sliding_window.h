@@ -40,6 +40,8 @@ class SlidingWindow {
   std::optional<WindowNode> Push(WindowNode node);
 
   Summary Solve();
+  /// Solve() stops after so long with the best states so far; 0: never.
+  void set_time_budget(double seconds) { time_budget_ = seconds; }
 
   const std::deque<WindowNode>& nodes() const { return nodes_; }
 
@@ -57,6 +59,7 @@ class SlidingWindow {
   config::Window config_;
   std::deque<WindowNode> nodes_;
   StatePrior prior_;
+  double time_budget_ = 0;  // s
 };
 
 }  // namespace evit

@@ -73,7 +73,7 @@ VisibilityQuery Tracker::NextQuery() const {
   query.min_depth = points.min_depth_m();
   query.max_depth = points.max_depth_m();
   query.occlusion = points.occlusion();
-  query.max_points = points.max_active();
+  query.max_points = static_cast<int>(point_share_ * points.max_active());
   query.seed = static_cast<std::uint64_t>(points.seed());
   return query;
 }
@@ -164,7 +164,8 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
   node.seq = keyframe.seq;
   node.state = Predict(keyframe);
   node.field = std::make_shared<SurfaceField>(keyframe.surface, 1);
-  node.points = active_.Sample(node.state.T_world_body, config_.points().per_keyframe(),
+  node.points = active_.Sample(node.state.T_world_body,
+                               static_cast<int>(point_share_ * config_.points().per_keyframe()),
                                static_cast<std::uint64_t>(keyframe.seq));
   node.imu = std::make_shared<Preintegration>(keyframe.imu, state_.bias, rig_.imu_noise);
   window_.Push(std::move(node));

@@ -58,6 +58,11 @@ class Tracker {
 
   TrackerOutput Process(const KeyframeInput& keyframe);
 
+  /// Overload: use only so large a share of the configured points (0..1], and stop a solve after `seconds`
+  /// with the best state so far (0: never). Neither is reproducible: for real time only.
+  void set_point_share(double share) { point_share_ = share; }
+  void set_solve_budget(double seconds) { window_.set_time_budget(seconds); }
+
   TrackerMode mode() const { return mode_; }
   /// Newest estimate: where IMU-rate poses are propagated from.
   const BodyState& state() const { return state_; }
@@ -91,6 +96,7 @@ class Tracker {
   Utime last_interval_ = 0;
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s: newest gyro reading less its bias
   int bad_keyframes_ = 0;
+  double point_share_ = 1;
 
   struct LocalizedFrame {  // high-rate frame kept until the window takes over
     BootstrapFrame frame;

@@ -40,6 +40,7 @@ keyframe_t ToMessage(Keyframe k) {
   m.n_events =
       static_cast<std::int32_t>(std::min<std::int64_t>(k.n_events, std::numeric_limits<std::int32_t>::max()));
   m.decay_us = k.decay_us;
+  m.lookahead_us = k.lookahead;
   m.width = k.width;
   m.height = k.height;
   m.n_surfaces = static_cast<std::int32_t>(k.surfaces.size());
@@ -63,6 +64,7 @@ TrackerFeedback ToFeedback(const tracker_mode_t& m) {
   f.bias.gyro = Eigen::Vector3d(m.gyro_bias);
   f.bias.accel = Eigen::Vector3d(m.accel_bias);
   f.image_speed = m.image_speed;
+  f.keyframe_stride = m.keyframe_stride;
   return f;
 }
 

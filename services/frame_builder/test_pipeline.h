@@ -144,6 +144,7 @@ class Tracker {
   }
   void AnswerTo(const keyframe_t& m) {
     tracker_mode_t mode{};
+    mode.keyframe_stride = 1;
     mode.utime = m.utime;
     mode.seq = seq_++;
     mode.epoch = 5;

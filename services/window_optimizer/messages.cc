@@ -95,6 +95,7 @@ tracker_mode_t ToTrackerMode(const TrackerOutput& output, const BodyState& state
   Copy(state.bias.gyro, m.gyro_bias);
   Copy(state.bias.accel, m.accel_bias);
   m.image_speed = output.image_speed;
+  m.keyframe_stride = 1;
   return m;
 }
 

@@ -8,7 +8,9 @@
 namespace evit {
 namespace {
 
-constexpr std::size_t kMaxQueue = 8;                             // keyframes waiting, real-time mode
+constexpr std::size_t kMaxQueue = 4;                             // keyframes waiting, real-time mode
+constexpr std::size_t kMaxBootstrapQueue = 32;                   // the same while bootstrapping
+constexpr double kSolveBudget = 0.015;                           // s, real time: then the best so far counts
 constexpr auto kAskAgain = std::chrono::milliseconds(200);       // an unanswered query is sent again
 constexpr auto kAnswerPatience = std::chrono::milliseconds(20);  // real time: go on with the points at hand
 
@@ -35,6 +37,8 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
   on(channels_.map_points, &WindowOptimizer::OnMapPoints);
   on(channels_.imu, &WindowOptimizer::OnImu);
   last_mode_.keyframe_seq = -1;
+  last_mode_.keyframe_stride = 1;
+  if (!settings.lossless) tracker_.set_solve_budget(kSolveBudget);
   status_.SetState("waiting", "waiting for map_server and for keyframes");
   AskForPoints(false);
 }
@@ -119,7 +123,10 @@ bool WindowOptimizer::InOrder(SequenceCounter::Verdict verdict, const keyframe_t
 }
 
 void WindowOptimizer::Queue(keyframe_t message) {
-  if (!settings_.lossless && queue_.size() >= kMaxQueue) {
+  // High-rate frames may wait: they come in a burst at the start, and bootstrapping needs each.
+  const bool high_rate = !queue_.empty() && queue_.front().message.high_rate != 0;
+  const std::size_t longest = high_rate ? kMaxBootstrapQueue : kMaxQueue;
+  while (!settings_.lossless && queue_.size() >= longest) {
     queue_.pop_front();
     ++status_.Counter("KEYFRAME.dropped");
   }
@@ -134,9 +141,17 @@ bool WindowOptimizer::ReadyForNext() const {
 
 void WindowOptimizer::ProcessQueue() {
   while (!queue_.empty() && ReadyForNext()) {
+    // Once tracking, the high-rate frames that queued up meanwhile tell nothing that the newest does not.
+    while (!settings_.lossless && tracker_.mode() == TrackerMode::kTracking && queue_.size() > 1 &&
+           queue_.front().message.high_rate != 0) {
+      queue_.pop_front();
+      ++status_.Counter("KEYFRAME.superseded");
+    }
     const Waiting next = std::move(queue_.front());
     queue_.pop_front();
     const auto begin = Clock::now();
+    if (!settings_.lossless && tracker_.mode() == TrackerMode::kTracking)
+      Govern(Milliseconds(begin - next.arrived));
     KeyframeInput input = FromMessage(next.message);
     if (tracker_.state_time() != 0 && next.message.previous_utime != tracker_.state_time()) {
       // A keyframe between was lost, or frame_builder started anew: the IMU samples since are our own.
@@ -155,12 +170,23 @@ void WindowOptimizer::ProcessQueue() {
   }
 }
 
+void WindowOptimizer::Govern(double waited_ms) {
+  const int before = governor_.level();
+  governor_.Observe(waited_ms);
+  status_.AddTiming("wait", waited_ms);
+  if (governor_.level() == before) return;
+  tracker_.set_point_share(governor_.point_share());
+  status_.Counter("overload.level") = governor_.level();
+  if (governor_.level() > before) ++status_.Counter("overload.steps");
+}
+
 void WindowOptimizer::Report(const TrackerOutput& output, const keyframe_t& keyframe, double solve_ms,
                              Clock::time_point arrived) {
   const BodyState& state = tracker_.state();
   status_.AddTiming("solve", solve_ms);
   if (output.has_pose) {
     window_state_t window = ToWindowState(output);
+    window.lookahead_us = keyframe.lookahead_us;
     window.solve_ms = solve_ms;
     window.total_ms = Milliseconds(Clock::now() - arrived);
     status_.AddTiming("keyframe", window.total_ms);
@@ -168,6 +194,7 @@ void WindowOptimizer::Report(const TrackerOutput& output, const keyframe_t& keyf
   }
   last_mode_ = ToTrackerMode(output, state, keyframe.utime, keyframe.seq);
   last_mode_.keyframe_epoch = keyframe.epoch;
+  last_mode_.keyframe_stride = governor_.keyframe_stride();
   Send(channels_.tracker_mode, &last_mode_, &mode_seq_);
   if (!settings_.lossless && output.mode == TrackerMode::kTracking) {
     live_ = {state.T_world_body, state.velocity};

@@ -15,6 +15,7 @@
 #include "evit/map_query_t.hpp"
 #include "evit/tracker_mode_t.hpp"
 #include "services/window_optimizer/imu_history.h"
+#include "services/window_optimizer/load_governor.h"
 
 namespace evit {
 
@@ -23,8 +24,8 @@ namespace evit {
 ///
 /// After each keyframe the points for the next are asked for, so that the answer is there when it comes.
 /// Lossless: a keyframe waits for that answer, and keyframes are taken in exact order. Real time: nothing
-/// waits longer than kAnswerPatience, a keyframe that cannot be kept is counted and its IMU samples are
-/// bridged from the service's own.
+/// waits longer than kAnswerPatience, work is cut down while keyframes wait (LoadGovernor), and the IMU
+/// samples of a keyframe that was dropped all the same are bridged from the service's own.
 class WindowOptimizer : public Service {
  public:
   struct Settings {
@@ -48,7 +49,7 @@ class WindowOptimizer : public Service {
   bool InOrder(SequenceCounter::Verdict verdict, const keyframe_t& message);
   void Queue(keyframe_t message);
   void ProcessQueue();
-  void ProcessOne(const keyframe_t& message);
+  void Govern(double waited_ms);
   bool ReadyForNext() const;
   void AskForPoints(bool again);
   void Report(const TrackerOutput& output, const keyframe_t& message, double solve_ms,
@@ -66,6 +67,7 @@ class WindowOptimizer : public Service {
   SequenceCounter imu_messages_;
   Tracker tracker_;
   ImuHistory imu_;
+  LoadGovernor governor_;  // real time only
 
   struct Waiting {
     keyframe_t message;

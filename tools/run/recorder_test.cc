@@ -42,6 +42,7 @@ class RecorderTest : public ::testing::Test {
   }
   void SendMode(std::int64_t keyframe, int mode, const std::string& reason) {
     tracker_mode_t m{};
+    m.keyframe_stride = 1;
     m.seq = mode_seq_++;
     m.utime = 10'000 * (keyframe + 1);
     m.keyframe_seq = keyframe;

@@ -14,6 +14,7 @@
 #include "common/bus/lcm_bus.h"
 #include "common/service/runner.h"
 #include "tools/progress.h"
+#include "tools/run/latency.h"
 #include "tools/run/local_network.h"
 #include "tools/run/pipeline.h"
 #include "tools/run/recorder.h"
@@ -150,12 +151,15 @@ int Run(const RunJob& job) {
   const auto bus = OpenLcmBus(url);
   const Channels channels(job.prefix);
   Recorder recorder(bus.get(), channels);
+  std::unique_ptr<LatencyProbe> latency;
+  if (!job.lossless && job.speed == 1) latency = std::make_unique<LatencyProbe>(bus.get(), channels);
   const auto begin = Clock::now();
   const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   Pipeline pipeline(Commands(job, url, inputs.start), programs, job.out);
   RunOutcome outcome;
   outcome.ended = WaitForEnd(job, bus.get(), channels, &recorder, &pipeline);
   outcome.wall_s = SecondsSince(begin);
+  outcome.latency = latency.get();
   pipeline.Stop();
   while (bus->Poll(50) > 0) {  // each service's last STATUS
   }

@@ -54,6 +54,29 @@ void FillRates(const Pipeline& pipeline, const RunOutcome& outcome, report::Repo
   report->set_map_server_restarts(pipeline.restarts());
 }
 
+void Fill(const LatencyProbe::Summary& summary, report::Latency* out) {
+  out->set_count(summary.count);
+  out->set_p50_ms(summary.p50_ms);
+  out->set_p99_ms(summary.p99_ms);
+  out->set_max_ms(summary.max_ms);
+}
+
+void FillLatency(const LatencyProbe& probe, report::Report* report) {
+  Fill(probe.pose_after_events(), report->mutable_pose_after_events());
+  Fill(probe.pose_after_stamp(), report->mutable_pose_after_stamp());
+  Fill(probe.imu_pose(), report->mutable_imu_pose());
+}
+
+void PrintLatency(const report::Report& report) {
+  const auto row = [](const char* what, const report::Latency& l) {
+    std::printf("latency: %s p50 %.1f ms, p99 %.1f ms, at most %.1f ms\n", what, l.p50_ms(), l.p99_ms(),
+                l.max_ms());
+  };
+  row("pose after its last event", report.pose_after_events());
+  row("pose after its instant   ", report.pose_after_stamp());
+  row("IMU-rate pose            ", report.imu_pose());
+}
+
 std::string Title(const RunJob& job, const report::Report& report) {
   std::string name = std::filesystem::path(job.log).stem().string();
   if (report.ate().empty()) return name;
@@ -103,6 +126,7 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
   FillFromRecorder(recorder, &report);
   report.set_sequence_s(PlayedSeconds(inputs, recorder, outcome));
   FillRates(pipeline, outcome, &report);
+  if (outcome.latency != nullptr) FillLatency(*outcome.latency, &report);
   const Trajectory& online = recorder.online();
   if (!inputs.truth.empty() && !online.empty()) FillErrors(inputs.truth, online, &report);
 
@@ -116,6 +140,7 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
   std::printf("%d keyframes (%.0f Hz), %.1f s in %.1f s: real-time factor %.2f; %.1f ms CPU per keyframe\n",
               report.keyframes(), report.keyframe_rate_hz(), report.sequence_s(), report.wall_s(),
               report.real_time_factor(), report.cpu_ms_per_keyframe());
+  if (outcome.latency != nullptr) PrintLatency(report);
   std::printf("%.0f messages lost, map_server restarted %d times\n", Lost(report), pipeline.restarts());
   std::printf("results: %s/{trajectory.tum,smoothed.tum,report.json,trajectory.png}\n", job.out.c_str());
   std::fflush(stdout);

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "tools/run/latency.h"
 #include "tools/run/pipeline.h"
 #include "tools/run/recorder.h"
 #include "tools/run/run.h"
@@ -13,6 +14,7 @@ namespace evit {
 struct RunOutcome {
   std::string ended;  // "finished" or "interrupted"
   double wall_s = 0;
+  const LatencyProbe* latency = nullptr;  // real time only
 };
 
 /// Writes trajectory.tum, smoothed.tum, report.json and trajectory.png into job.out and says in a few lines
