@@ -99,6 +99,12 @@ MapIndex& MapIndex::operator=(MapIndex&&) noexcept = default;
 
 const PointMap& MapIndex::map() const { return impl_->map; }
 
+std::size_t MapIndex::MemoryBytes() const {
+  const std::size_t n = impl_->ids.size();
+  return n * (sizeof(Eigen::Vector3f) + 3 * sizeof(float) + sizeof(std::int32_t)) +
+         impl_->cells.size() * sizeof(Cell);
+}
+
 std::vector<std::pair<std::size_t, std::size_t>> MapIndex::CellsInView(const VisibilityQuery& query,
                                                                        const SE3& T_camera_world) const {
   const Eigen::Matrix3f R = T_camera_world.R().cast<float>();

@@ -37,6 +37,7 @@ class MapIndex {
   MapIndex& operator=(MapIndex&&) noexcept;
 
   const PointMap& map() const;
+  std::size_t MemoryBytes() const;
   VisibilityAnswer Query(const VisibilityQuery& query) const;
 
  private:

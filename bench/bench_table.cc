@@ -1,0 +1,34 @@
+// Makes the tables and curves of docs/performance.md from the JSON files of the benchmarks and of `evit run`.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+
+#include "bench/curves.h"
+#include "bench/table.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"Tables and curves from benchmark results."};
+  std::vector<std::string> results, runs;
+  std::string json, markdown, curves, commit;
+  app.add_option("results", results, "JSON files of Google Benchmark")->check(CLI::ExistingFile);
+  app.add_option("--run", runs, "NAME=report.json of `evit run`");
+  app.add_option("--commit", commit, "Commit the results belong to");
+  app.add_option("--json", json, "File to write all results to");
+  app.add_option("--markdown", markdown, "File to write the tables to");
+  app.add_option("--curves", curves, "Folder to write the scaling curves to (CSV and PNG)");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const evit::bench::Results all = evit::bench::LoadResults(results, runs, commit);
+    const std::string tables = evit::bench::Tables(all);
+    std::cout << tables;
+    if (!markdown.empty()) evit::bench::WriteText(markdown, tables);
+    if (!json.empty()) evit::bench::WriteText(json, all.ToJson());
+    if (!curves.empty()) evit::bench::WriteCurves(all, curves);
+  } catch (const std::exception& error) {
+    std::cerr << "bench_table: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
