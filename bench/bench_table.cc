@@ -6,18 +6,20 @@
 #include <stdexcept>
 
 #include "bench/curves.h"
+#include "bench/stages.h"
 #include "bench/table.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"Tables and curves from benchmark results."};
   std::vector<std::string> results, runs;
-  std::string json, markdown, curves, commit;
+  std::string json, markdown, curves, stages, commit;
   app.add_option("results", results, "JSON files of Google Benchmark")->check(CLI::ExistingFile);
   app.add_option("--run", runs, "NAME=report.json of `evit run`");
   app.add_option("--commit", commit, "Commit the results belong to");
   app.add_option("--json", json, "File to write all results to");
   app.add_option("--markdown", markdown, "File to write the tables to");
   app.add_option("--curves", curves, "Folder to write the scaling curves to (CSV and PNG)");
+  app.add_option("--stages", stages, "PNG to draw where a keyframe's time goes, of the first run");
   CLI11_PARSE(app, argc, argv);
   try {
     const evit::bench::Results all = evit::bench::LoadResults(results, runs, commit);
@@ -25,6 +27,7 @@ int main(int argc, char** argv) {
     std::cout << tables;
     if (!markdown.empty()) evit::bench::WriteText(markdown, tables);
     if (!json.empty()) evit::bench::WriteText(json, all.ToJson());
+    if (!stages.empty() && !all.runs.empty()) evit::bench::DrawStages(all.runs.front().second, stages);
     if (!curves.empty()) evit::bench::WriteCurves(all, curves);
   } catch (const std::exception& error) {
     std::cerr << "bench_table: " << error.what() << '\n';

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "common/geometry/lane_camera.h"
+#include "common/simd/lanes.h"
 
 namespace evit {
 namespace {

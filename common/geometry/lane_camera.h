@@ -1,25 +1,11 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 
 #include "common/geometry/camera.h"
-
-/// Loops over many points in blocks of kLanes, in single precision, written so that the compiler makes
-/// vectors of them. EVIT_MULTIVERSION compiles a function for AVX2 and for every x86-64, and the loader
-/// picks; both give the same bits, since every lane does the same IEEE operations (-ffp-contract=off, no
-/// reassociation).
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define EVIT_MULTIVERSION __attribute__((target_clones("default", "avx2")))
-#else  // the sanitizers' start-up does not bear the loader's choice
-#define EVIT_MULTIVERSION
-#endif
-#define EVIT_ALWAYS_INLINE inline __attribute__((always_inline))
+#include "common/simd/lanes.h"
 
 namespace evit {
-
-inline constexpr int kLanes = 16;
 
 /// A Camera made ready for lanes.
 struct LaneCamera {

@@ -1,5 +1,6 @@
 #include "common/tracking/tracker.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -8,8 +9,9 @@
 namespace evit {
 namespace {
 
-constexpr std::size_t kMinPoints = 30;  // fewer say nothing about six unknowns
-constexpr Utime kQueryAhead = 20'000;   // us ahead of the newest keyframe, where nothing better is known
+constexpr std::size_t kMinPoints = 30;    // fewer say nothing about six unknowns
+constexpr Utime kQueryAhead = 20'000;     // us ahead of the newest keyframe, where nothing better is known
+constexpr Utime kFarthestAhead = 50'000;  // us: beyond that a prediction leaves the margin anyway
 
 AlignmentSettings MakeAlignment(const Rig& rig, const config::Window& window) {
   AlignmentSettings settings;
@@ -62,12 +64,26 @@ void Tracker::Restart(const SE3& T_map_body, std::string reason) {
 }
 
 VisibilityQuery Tracker::NextQuery() const {
-  const config::Points& points = config_.points();
   const double dt = ToSeconds(last_interval_ > 0 ? last_interval_ : kQueryAhead);
   SE3 pose = state_.T_world_body;
   pose.p += dt * state_.velocity;
+  return QueryFrom(pose);
+}
+
+VisibilityQuery Tracker::QueryAfter(const KeyframeInput& keyframe) const {
+  if (keyframe.imu.empty()) return NextQuery();
+  const double dt = ToSeconds(std::clamp<Utime>(keyframe.t - state_time_, 0, kFarthestAhead));
+  const BodyState predicted = Predict(keyframe);
+  SE3 pose = predicted.T_world_body;
+  pose.p += dt * predicted.velocity;
+  pose.q = (pose.q * ExpSO3(dt * (keyframe.imu.back().gyro - state_.bias.gyro))).normalized();
+  return QueryFrom(pose);
+}
+
+VisibilityQuery Tracker::QueryFrom(const SE3& T_map_body) const {
+  const config::Points& points = config_.points();
   VisibilityQuery query;
-  query.T_world_camera = pose * rig_.T_body_camera;
+  query.T_world_camera = T_map_body * rig_.T_body_camera;
   query.camera = rig_.camera;
   query.margin_px = points.margin_px();
   query.min_depth = points.min_depth_m();

@@ -53,6 +53,9 @@ class Tracker {
 
   /// The view whose points the next keyframe needs.
   VisibilityQuery NextQuery() const;
+  /// The same for the keyframe after this one, before it is processed: from its IMU samples, so that the
+  /// answer comes while it is being processed. For use while tracking.
+  VisibilityQuery QueryAfter(const KeyframeInput& keyframe) const;
   /// Answer to it. ids: indices into the map; points: map frame, m.
   void AddVisible(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& points);
 
@@ -78,6 +81,7 @@ class Tracker {
   bool ReadyToBootstrap() const;
   bool TryBootstrap();
   BodyState Predict(const KeyframeInput& keyframe) const;
+  VisibilityQuery QueryFrom(const SE3& T_map_body) const;
   bool Aligned(const AlignmentQuality& quality) const;
   void SetMode(TrackerMode mode, std::string reason);
   void Restart(const SE3& T_map_body, std::string reason);

@@ -40,7 +40,7 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
   last_mode_.keyframe_stride = 1;
   if (!settings.lossless) tracker_.set_solve_budget(kSolveBudget);
   status_.SetState("waiting", "waiting for map_server and for keyframes");
-  AskForPoints(false);
+  AskForPoints(tracker_.NextQuery());
 }
 
 template <typename Message>
@@ -51,20 +51,20 @@ void WindowOptimizer::Send(const std::string& channel, Message* message, std::in
   bus_->Publish(channel, buffer_.data(), buffer_.size());
 }
 
-void WindowOptimizer::AskForPoints(bool again) {
-  const auto now = Clock::now();
-  if (!again) {
-    query_ = ToMessage(tracker_.NextQuery());
-    query_.utime = tracker_.state_time();
-    answered_ = false;
-    first_asked_ = now;
-    Send(channels_.map_query, &query_, &query_seq_);
-  } else {  // the very same query: its number tells which answer is awaited
-    ++status_.Counter("MAP_QUERY.sent_again");
-    EncodeTo(query_, &buffer_);
-    bus_->Publish(channels_.map_query, buffer_.data(), buffer_.size());
-  }
-  asked_ = now;
+void WindowOptimizer::AskForPoints(const VisibilityQuery& query) {
+  query_ = ToMessage(query);
+  query_.utime = tracker_.state_time();
+  answered_ = false;
+  first_asked_ = asked_ = Clock::now();
+  Send(channels_.map_query, &query_, &query_seq_);
+}
+
+// The very same query: its number tells which answer is awaited.
+void WindowOptimizer::AskAgain() {
+  ++status_.Counter("MAP_QUERY.sent_again");
+  EncodeTo(query_, &buffer_);
+  bus_->Publish(channels_.map_query, buffer_.data(), buffer_.size());
+  asked_ = Clock::now();
 }
 
 void WindowOptimizer::OnMapPoints(const std::uint8_t* data, std::size_t size) {
@@ -164,9 +164,12 @@ void WindowOptimizer::ProcessQueue() {
       PublishPoses(input.imu, {tracker_.state().T_world_body, tracker_.state().velocity},
                    tracker_.state().bias);
     }
+    const bool foreseeable = tracker_.mode() == TrackerMode::kTracking;
+    if (foreseeable) AskForPoints(tracker_.QueryAfter(input));
+    const auto solving = Clock::now();
     const TrackerOutput output = tracker_.Process(input);
-    Report(output, next.message, Milliseconds(Clock::now() - begin), next.arrived);
-    AskForPoints(false);
+    Report(output, next.message, Milliseconds(Clock::now() - solving), next.arrived);
+    if (!foreseeable || output.mode != TrackerMode::kTracking) AskForPoints(tracker_.NextQuery());
   }
 }
 
@@ -237,7 +240,7 @@ void WindowOptimizer::PublishPoses(const std::vector<ImuSample>& samples, NavSta
 }
 
 void WindowOptimizer::Tick() {
-  if (!answered_ && Clock::now() - asked_ > kAskAgain) AskForPoints(true);
+  if (!answered_ && Clock::now() - asked_ > kAskAgain) AskAgain();
   ProcessQueue();
   if (!answered_ && Clock::now() - first_asked_ > std::chrono::seconds(2)) {
     status_.SetState("waiting", "map_server does not answer: is it running, on the same URL and prefix?");

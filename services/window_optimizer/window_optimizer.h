@@ -22,10 +22,10 @@ namespace evit {
 /// KEYFRAME, IMU and MAP_POINTS in; WINDOW_STATE and TRACKER_MODE for each keyframe, BODY_POSE for each IMU
 /// sample and MAP_QUERY out. The tracker itself is common/tracking.
 ///
-/// After each keyframe the points for the next are asked for, so that the answer is there when it comes.
-/// Lossless: a keyframe waits for that answer, and keyframes are taken in exact order. Real time: nothing
-/// waits longer than kAnswerPatience, work is cut down while keyframes wait (LoadGovernor), and the IMU
-/// samples of a keyframe that was dropped all the same are bridged from the service's own.
+/// The points for the next keyframe are asked for before one is processed, so that map_server works
+/// meanwhile. Lossless: a keyframe waits for that answer, and keyframes are taken in exact order. Real time:
+/// nothing waits longer than kAnswerPatience, work is cut down while keyframes wait (LoadGovernor), and the
+/// IMU samples of a keyframe that was dropped all the same are bridged from the service's own.
 class WindowOptimizer : public Service {
  public:
   struct Settings {
@@ -51,7 +51,8 @@ class WindowOptimizer : public Service {
   void ProcessQueue();
   void Govern(double waited_ms);
   bool ReadyForNext() const;
-  void AskForPoints(bool again);
+  void AskForPoints(const VisibilityQuery& query);
+  void AskAgain();
   void Report(const TrackerOutput& output, const keyframe_t& message, double solve_ms,
               Clock::time_point arrived);
   void PublishPoses(const std::vector<ImuSample>& samples, NavState from, const ImuBias& bias);

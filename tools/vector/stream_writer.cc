@@ -57,9 +57,9 @@ void StreamWriter::FlushPacket() {
   if (packet_.size() == 0) return;
   known_ = packet_.t.back();
   WriteOthers(known_);
-  for (const event_packet_t& m : ToPackets(packet_, epoch_, n_packets_)) {
-    Write(known_, channels_.events, m);
-    ++n_packets_;
+  for (std::size_t begin = 0; begin < packet_.size(); ++n_packets_) {
+    begin = EncodePacket(packet_, begin, epoch_, n_packets_, &buffer_);
+    log_.Write(known_, channels_.events, buffer_.data(), buffer_.size());
   }
   packet_.clear();
 }

@@ -16,6 +16,12 @@ inline constexpr std::size_t kPacketEvents = 7'000;
 /// that does not fit the message.
 std::vector<event_packet_t> ToPackets(const EventArray& events, std::int64_t epoch, std::int64_t first_seq);
 
+/// Encodes one such packet, beginning with event `begin`, into `buffer` (its memory is used again): the same
+/// bytes as EncodeTo() of it, without a message in between. Returns the first event not in it. Throws as
+/// ToPackets().
+std::size_t EncodePacket(const EventArray& events, std::size_t begin, std::int64_t epoch, std::int64_t seq,
+                         std::vector<std::uint8_t>* buffer);
+
 /// A packet without events: "no event before `watermark` is still to come".
 event_packet_t EmptyPacket(Utime watermark, std::int64_t epoch, std::int64_t seq);
 

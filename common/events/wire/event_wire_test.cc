@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "common/bus/codec.h"
 #include "common/events/test_streams.h"
 
 namespace evit {
@@ -27,6 +29,28 @@ TEST(EventWire, PacketsGiveTheEventsBack) {
   EXPECT_EQ(back.x, events.x);
   EXPECT_EQ(back.y, events.y);
   EXPECT_EQ(back.p, events.p);
+}
+
+TEST(EventWire, EncodedDirectlyItIsTheSameBytes) {
+  EventArray events;
+  for (int k = 0; k < 20'000; ++k) {
+    events.push_back(1'642'661'138'836'530 + Utime{k} * (k % 7), 0, 0, 0);
+    events.x.back() = static_cast<std::uint16_t>(k * 7919 % 32768);
+    events.y.back() = static_cast<std::uint16_t>(k * 104729 % 480);
+    events.p.back() = k % 2;
+  }
+  std::sort(events.t.begin(), events.t.end());
+  std::vector<std::uint8_t> direct, through_message;
+  std::size_t begin = 0;
+  std::int64_t seq = 5;
+  for (const event_packet_t& packet : ToPackets(events, 99, 5)) {
+    EncodeTo(packet, &through_message);
+    begin = EncodePacket(events, begin, 99, seq++, &direct);
+    EXPECT_EQ(direct, through_message);
+  }
+  EXPECT_EQ(begin, events.size());
+  events.t[3] = 0;
+  EXPECT_THROW(EncodePacket(events, 0, 99, 0, &direct), std::invalid_argument);
 }
 
 TEST(EventWire, LongPausesBeginANewPacket) {
