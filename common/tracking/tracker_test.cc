@@ -140,6 +140,27 @@ TEST(Tracker, SaysLostWhenTheWorldIsNotTheMap) {
   EXPECT_NE(out.reason, "");
 }
 
+TEST(Tracker, ASolveCutShortKeepsTheBestSoFar) {
+  const Motion motion;
+  Bench bench(Config(), motion.State(1.0).T_world_body);
+  Utime t = 1'000'000;
+  TrackerOutput out;
+  while (out.mode != TrackerMode::kTracking && t < 3'000'000) out = bench.Step(t += 10'000, bench.room);
+  ASSERT_EQ(out.mode, TrackerMode::kTracking);
+  int whole = 0, cut = 0;
+  for (int k = 0; k < 20; ++k) whole += bench.Step(t += 25'000, bench.room).iterations;
+  bench.tracker.set_solve_budget(1e-9);
+  bench.tracker.set_point_share(0.25);
+  for (int k = 0; k < 20; ++k) {
+    out = bench.Step(t += 25'000, bench.room);
+    cut += out.iterations;
+    EXPECT_LE(out.quality.n_points, 150);
+  }
+  EXPECT_LT(cut, whole);
+  EXPECT_EQ(out.mode, TrackerMode::kTracking) << out.reason;  // prediction and warm start carry it
+  EXPECT_LT((out.nodes.back().state.T_world_body.p - motion.State(ToSeconds(t)).T_world_body.p).norm(), 0.03);
+}
+
 TEST(Tracker, ImuGapIsReportedAndTrackingResumes) {
   const Motion motion;
   Bench bench(Config(), motion.State(1.0).T_world_body);

@@ -1,17 +1,19 @@
 #include "services/window_optimizer/load_governor.h"
 
+#include <algorithm>
+
 namespace evit {
 namespace {
 
 constexpr double kLateMs = 15;  // most of the time between two keyframes at their highest rate
 constexpr double kIdleMs = 5;
-constexpr int kLateKeyframes = 5;  // a step's effect must show before the next
+constexpr int kLateKeyframes = 5;  // more late than in time: a step's effect must show before the next
 constexpr int kIdleKeyframes = 100;
 
 }  // namespace
 
 void LoadGovernor::Observe(double waited_ms) {
-  late_ = waited_ms > kLateMs ? late_ + 1 : 0;
+  late_ = waited_ms > kLateMs ? late_ + 1 : std::max(late_ - 1, 0);
   idle_ = waited_ms < kIdleMs ? idle_ + 1 : 0;
   if (late_ >= kLateKeyframes && level_ < kMaxLevel) {
     ++level_;

@@ -21,7 +21,8 @@ class LoadGovernor {
 
  private:
   int level_ = 0;
-  int late_ = 0, idle_ = 0;  // keyframes in a row
+  int late_ = 0;  // keyframes that waited, less those that did not
+  int idle_ = 0;  // keyframes in a row that did not wait at all
 };
 
 }  // namespace evit

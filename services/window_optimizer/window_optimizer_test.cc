@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <map>
+#include <thread>
 
 #include "common/bus/codec.h"
 #include "common/bus/lcm_bus.h"
@@ -122,6 +124,23 @@ class WindowOptimizerTest : public ::testing::Test {
     return last_;
   }
 
+  void SendImu(Utime begin, Utime end) {
+    std::int64_t seq = 0;
+    for (Utime t = begin; t <= end; t += 5'000) {
+      const ImuSample s = motion_.Imu(t, {});
+      imu_batch_t m{};
+      m.utime = t;
+      m.seq = seq++;
+      m.epoch = 3;
+      m.n = 1;
+      m.sample_utime = {t};
+      m.gyro = {{s.gyro.x(), s.gyro.y(), s.gyro.z()}};
+      m.accel = {{s.accel.x(), s.accel.y(), s.accel.z()}};
+      Send(channels_.imu, m);
+    }
+    Pump();
+  }
+
   std::int64_t Counter(const std::string& name) {
     service_->Stop();  // sends STATUS at once
     Pump();
@@ -204,20 +223,7 @@ TEST_F(WindowOptimizerTest, KeyframesOutOfOrderWaitAndDuplicatesAreAnsweredAgain
 TEST_F(WindowOptimizerTest, LostKeyframeIsBridgedFromItsOwnImu) {
   Start(false);
   const Utime begin = UntilTracking();
-  std::int64_t imu_seq = 0;
-  for (Utime t = begin - 50'000; t <= begin + 1'000'000; t += 5'000) {
-    const ImuSample s = motion_.Imu(t, {});
-    imu_batch_t m{};
-    m.utime = t;
-    m.seq = imu_seq++;
-    m.epoch = 3;
-    m.n = 1;
-    m.sample_utime = {t};
-    m.gyro = {{s.gyro.x(), s.gyro.y(), s.gyro.z()}};
-    m.accel = {{s.accel.x(), s.accel.y(), s.accel.z()}};
-    Send(channels_.imu, m);
-  }
-  Pump();
+  SendImu(begin - 50'000, begin + 1'000'000);
   for (int k = 0; k < 20; ++k) {
     const keyframe_t message = Keyframe(last_ + 25'000);
     if (k % 5 == 2) continue;  // lost on the way
@@ -227,6 +233,36 @@ TEST_F(WindowOptimizerTest, LostKeyframeIsBridgedFromItsOwnImu) {
   EXPECT_EQ(modes_.back().mode, tracker_mode_t::TRACKING) << modes_.back().reason;
   EXPECT_EQ(Counter("KEYFRAME.bridged"), 4);
   EXPECT_EQ(Counter("KEYFRAME.lost"), 4);
+}
+
+TEST_F(WindowOptimizerTest, OverloadTakesPointsThenKeyframesAndGivesThemBack) {
+  Start(false);
+  const Utime begin = UntilTracking();
+  SendImu(begin - 50'000, begin + 8'000'000);
+  Send(channels_.keyframe, Keyframe(last_ + 25'000));
+  Pump();
+  const int points = windows_.back().n_points;
+  EXPECT_EQ(modes_.back().keyframe_stride, 1);
+  bool fewer_points_before_sparser = false;
+  for (int burst = 0; burst < 25; ++burst) {
+    for (int k = 0; k < 8; ++k) Send(channels_.keyframe, Keyframe(last_ + 10'000));
+    service_bus_->Poll(0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // they wait
+    for (int k = 0; k < 4; ++k) Pump();
+    fewer_points_before_sparser |= windows_.back().n_points < points && modes_.back().keyframe_stride == 1;
+  }
+  EXPECT_TRUE(fewer_points_before_sparser);
+  EXPECT_GT(modes_.back().keyframe_stride, 1);
+  EXPECT_EQ(modes_.back().mode, tracker_mode_t::TRACKING) << modes_.back().reason;
+  EXPECT_GT(Counter("KEYFRAME.dropped"), 0);
+  EXPECT_GT(Counter("overload.level"), 2);
+  for (int k = 0; k < 450; ++k) {
+    Send(channels_.keyframe, Keyframe(last_ + 10'000));
+    Pump();
+  }
+  EXPECT_EQ(Counter("overload.level"), 0);
+  EXPECT_EQ(modes_.back().keyframe_stride, 1);
+  EXPECT_NEAR(windows_.back().n_points, points, 0.3 * points);
 }
 
 TEST_F(WindowOptimizerTest, BadMessagesAreCountedAndSurvived) {
