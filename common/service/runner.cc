@@ -5,6 +5,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <utility>
+
+#include "common/bus/faulty_bus.h"
+#include "common/bus/lcm_bus.h"
 
 namespace evit {
 
@@ -61,6 +65,13 @@ std::string ResolveLcmUrl(const std::string& option) {
   const char* environment = std::getenv("LCM_DEFAULT_URL");
   if (environment != nullptr && *environment != '\0') return environment;
   return kDefaultUrl;
+}
+
+std::unique_ptr<Bus> OpenServiceBus(const ServiceOptions& options) {
+  auto bus = OpenLcmBus(ResolveLcmUrl(options.lcm_url));
+  const char* const faults = std::getenv("EVIT_BUS_FAULTS");
+  if (faults == nullptr || *faults == '\0') return bus;
+  return MakeFaultyBus(std::move(bus), ParseBusFaults(faults));
 }
 
 int RunService(Service* service, Bus* bus) {

@@ -37,6 +37,10 @@ void AddServiceOptions(CLI::App* app, ServiceOptions* options, bool with_flow = 
 /// The URL to open: as said above.
 std::string ResolveLcmUrl(const std::string& option);
 
+/// The live bus of a service. With EVIT_BUS_FAULTS in the environment (a test switch, see faulty_bus.h)
+/// messages arrive lossy, twice, out of order or late.
+std::unique_ptr<Bus> OpenServiceBus(const ServiceOptions& options);
+
 /// Polls the bus until SIGINT, SIGTERM or done(); then Stop(). Returns the exit code 0.
 int RunService(Service* service, Bus* bus);
 

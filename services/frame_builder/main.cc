@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 
-#include "common/bus/lcm_bus.h"
 #include "common/config/config.h"
 #include "services/frame_builder/frame_builder.h"
 
@@ -22,7 +21,7 @@ int Main(int argc, char** argv) {
   settings.rig = evit::LoadRig(rig);
   settings.tracker = evit::LoadTracker(config);
   settings.lossless = options.lossless;
-  const auto bus = evit::OpenLcmBus(evit::ResolveLcmUrl(options.lcm_url));
+  const auto bus = evit::OpenServiceBus(options);
   evit::FrameBuilder service(bus.get(), evit::Channels(options.prefix), settings);
   return evit::RunService(&service, bus.get());
 }

@@ -3,7 +3,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/bus/lcm_bus.h"
 #include "services/log_replay/log_replay.h"
 
 namespace {
@@ -52,7 +51,7 @@ int Run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   if (!seconds.empty()) options.seconds = ParseSeconds(seconds);
   options.lossless = service_options.lossless;
-  const auto bus = evit::OpenLcmBus(evit::ResolveLcmUrl(service_options.lcm_url));
+  const auto bus = evit::OpenServiceBus(service_options);
   evit::LogReplay replay(options, bus.get(), evit::Channels(service_options.prefix));
   return evit::RunService(&replay, bus.get());
 }

@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "common/bus/lcm_bus.h"
 #include "common/map/map_file.h"
 #include "services/map_server/map_server.h"
 
@@ -25,7 +24,7 @@ int Main(int argc, char** argv) {
   std::snprintf(text, sizeof text, "%zu points (%s), %.1f x %.1f x %.1f m, spacing %.3f m", summary.n_points,
                 loaded.format.c_str(), summary.max.x() - summary.min.x(), summary.max.y() - summary.min.y(),
                 summary.max.z() - summary.min.z(), summary.median_spacing);
-  const auto bus = evit::OpenLcmBus(evit::ResolveLcmUrl(options.lcm_url));
+  const auto bus = evit::OpenServiceBus(options);
   evit::MapServer service(bus.get(), evit::Channels(options.prefix), evit::MapIndex(std::move(loaded.map)),
                           text);
   return evit::RunService(&service, bus.get());

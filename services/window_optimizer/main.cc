@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "common/bus/lcm_bus.h"
 #include "common/config/config.h"
 #include "services/window_optimizer/window_optimizer.h"
 
@@ -37,7 +36,7 @@ int Main(int argc, char** argv) {
   }
   const evit::WindowOptimizer::Settings settings{evit::LoadRig(rig), evit::LoadTracker(config),
                                                  ParsePose(pose), options.lossless};
-  const auto bus = evit::OpenLcmBus(evit::ResolveLcmUrl(options.lcm_url));
+  const auto bus = evit::OpenServiceBus(options);
   evit::WindowOptimizer service(bus.get(), evit::Channels(options.prefix), settings);
   return evit::RunService(&service, bus.get());
 }
