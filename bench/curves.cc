@@ -16,19 +16,16 @@ struct Curve {
   const char* family;    // of the rows
   const char* argument;  // in the rows' names, before ':'
   double unit;           // the argument times this is x
+  const char* file;
   const char* title;
   const char* x_label;
-  const char* expected;  // how it should grow
 };
 
 constexpr Curve kCurves[] = {
-    {"event rate", "100 kev/s", 0.1, "frame_builder: a second of data", "million events/s",
-     "linear, plus 50 keyframes"},
-    {"map size", "1000 points", 0.001, "map_server: one query", "million points",
-     "linear in what is visible"},
-    {"window", "keyframes", 1, "solve, 1000 points each", "keyframes",
-     "linear, then the cube of the small system"},
-    {"window", "points", 1, "solve, 5 keyframes", "points per keyframe", "linear, plus the solver's own"}};
+    {"event rate", "100 kev/s", 0.1, "event_rate", "frame_builder: a second of data", "million events/s"},
+    {"map size", "1000 points", 0.001, "map_size", "map_server: one query", "million points"},
+    {"window", "keyframes", 1, "window_keyframes", "solve, 1000 points each", "keyframes"},
+    {"window", "points", 1, "window_points", "solve, 5 keyframes", "points per keyframe"}};
 
 // The number after "NAME:" in a row's name; negative where there is none.
 double Argument(const std::string& name, const std::string& argument) {
@@ -70,11 +67,9 @@ void WriteCurves(const Results& results, const std::string& folder) {
       linear.x.push_back(x), linear.y.push_back(last_y * x / last_x);
     }
     dots.x = measured.x, dots.y = measured.y;
-    std::string file = std::string(curve.family) + " by " + curve.argument;
-    for (char& c : file) c = c == ' ' || c == '/' ? '_' : c;
-    WriteText(folder + "/" + file + ".csv", csv);
+    WriteText(folder + "/" + curve.file + ".csv", csv);
     Chart chart;
-    chart.title = std::string(curve.title) + " (expected: " + curve.expected + ")";
+    chart.title = curve.title;
     chart.x_label = curve.x_label;
     chart.y_label = "ms";
     chart.series = {linear, measured, dots};
