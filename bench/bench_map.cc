@@ -44,7 +44,7 @@ void Reference(benchmark::State& state) {
     state.PauseTiming();
     q.T_world_camera = test::RandomPose(&random, 1);
     state.ResumeTiming();
-    std::vector<float> depth(640 * 480, 1e9F);
+    std::vector<float> depth(std::size_t{640} * 480, 1e9F);
     std::vector<std::pair<std::int32_t, Eigen::Vector3d>> seen;
     const SE3 T = q.T_world_camera.Inverse();
     for (std::size_t k = 0; k < map.points.size(); ++k) {

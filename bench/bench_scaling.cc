@@ -68,6 +68,7 @@ void MapSize(benchmark::State& state) {
   q.max_points = 5000;
   std::mt19937 random(1);
   std::vector<SE3> poses;
+  poses.reserve(64);
   for (int k = 0; k < 64; ++k) poses.push_back(test::RandomPose(&random, 1));
   double visible = 0, queries = 0;
   for (auto _ : state) {

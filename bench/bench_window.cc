@@ -125,6 +125,7 @@ void Reference(benchmark::State& state) {
   const AlignmentSettings settings = Alignment();
   for (auto _ : state) {
     std::vector<StateBlocks> blocks;
+    blocks.reserve(nodes.size());
     std::deque<PointResidual::Grid> grids;
     std::deque<ceres::BiCubicInterpolator<PointResidual::Grid>> fields;
     for (const WindowNode& node : nodes) blocks.push_back(ToBlocks(node.state));
