@@ -1,15 +1,15 @@
 // Makes the tables and curves of docs/performance.md from the JSON files of the benchmarks and of `evit run`.
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <fstream>
 #include <iostream>
-#include <stdexcept>
 
 #include "bench/curves.h"
 #include "bench/stages.h"
 #include "bench/table.h"
+#include "common/service/runner.h"
 
-int main(int argc, char** argv) {
+namespace {
+
+int Main(int argc, char** argv) {
   CLI::App app{"Tables and curves from benchmark results."};
   std::vector<std::string> results, runs;
   std::string json, markdown, curves, stages, commit;
@@ -20,18 +20,21 @@ int main(int argc, char** argv) {
   app.add_option("--markdown", markdown, "File to write the tables to");
   app.add_option("--curves", curves, "Folder to write the scaling curves to (CSV and PNG)");
   app.add_option("--stages", stages, "PNG to draw where a keyframe's time goes, of the first run");
-  CLI11_PARSE(app, argc, argv);
   try {
-    const evit::bench::Results all = evit::bench::LoadResults(results, runs, commit);
-    const std::string tables = evit::bench::Tables(all);
-    std::cout << tables;
-    if (!markdown.empty()) evit::bench::WriteText(markdown, tables);
-    if (!json.empty()) evit::bench::WriteText(json, all.ToJson());
-    if (!stages.empty() && !all.runs.empty()) evit::bench::DrawStages(all.runs.front().second, stages);
-    if (!curves.empty()) evit::bench::WriteCurves(all, curves);
-  } catch (const std::exception& error) {
-    std::cerr << "bench_table: " << error.what() << '\n';
-    return 1;
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
   }
+  const evit::bench::Results all = evit::bench::LoadResults(results, runs, commit);
+  const std::string tables = evit::bench::Tables(all);
+  std::cout << tables;
+  if (!markdown.empty()) evit::bench::WriteText(markdown, tables);
+  if (!json.empty()) evit::bench::WriteText(json, all.ToJson());
+  if (!stages.empty() && !all.runs.empty()) evit::bench::DrawStages(all.runs.front().second, stages);
+  if (!curves.empty()) evit::bench::WriteCurves(all, curves);
   return 0;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return evit::GuardedMain("bench_table", Main, argc, argv); }

@@ -81,9 +81,10 @@ std::string MicroTable(const Results& results) {
     const std::string name = NameOfOurs(row["name"]);
     if (name.empty()) continue;
     const json* reference = Find(results, name + "/reference");
-    out += "| " + name + " | " + Value(row) + " | " + (reference == nullptr ? "" : Value(*reference)) +
-           " | " + (reference == nullptr ? "" : Text("%.1f", Ratio(row, *reference))) + " | " + Target(row) +
-           " | " + Bound(row, bandwidth) + " |\n";
+    out.append("| ").append(name).append(" | ").append(Value(row)).append(" | ");
+    out.append(reference == nullptr ? "" : Value(*reference)).append(" | ");
+    out.append(reference == nullptr ? "" : Text("%.1f", Ratio(row, *reference))).append(" | ");
+    out.append(Target(row)).append(" | ").append(Bound(row, bandwidth)).append(" |\n");
   }
   if (memory != nullptr)
     out += Text("\nMain memory: %.1f GB/s read and written, one thread.\n", bandwidth * 1e-9);
@@ -114,10 +115,10 @@ std::string RunTables(const Results& results) {
     const double rate = 1e-6 * Number(r, "event_rate_per_s");
     if (r["lossless"].get<bool>()) {
       any_lossless = true;
-      lossless += "| " + name +
-                  Text(" | %.2f | %.0f | %.2f | %.1f | ", rate, Number(r, "keyframe_rate_hz"),
-                       Number(r, "real_time_factor"), Number(r, "cpu_ms_per_keyframe")) +
-                  error + Text(" | %.0f MB |\n", Peak(r));
+      lossless.append("| ").append(name);
+      lossless += Text(" | %.2f | %.0f | %.2f | %.1f | ", rate, Number(r, "keyframe_rate_hz"),
+                       Number(r, "real_time_factor"), Number(r, "cpu_ms_per_keyframe"));
+      lossless.append(error).append(Text(" | %.0f MB |\n", Peak(r)));
       continue;
     }
     any_real_time = true;
@@ -135,12 +136,12 @@ std::string RunTables(const Results& results) {
         if (counter != "mode.lost" && (ends(".lost") || ends(".dropped"))) lost += value.get<double>();
       }
     }
+    real_time.append("| ").append(name);
     real_time +=
-        "| " + name +
         Text(" | %.2f | %.1f / %.1f / %.1f | %.1f | %.1f / %.1f | %.0f | ", rate, Number(events, "p50_ms"),
              Number(events, "p99_ms"), Number(events, "max_ms"), Number(part("pose_after_stamp"), "p50_ms"),
-             Number(imu, "p50_ms"), Number(imu, "p99_ms"), lost) +
-        error + Text(" | %.0f MB |\n", Peak(r));
+             Number(imu, "p50_ms"), Number(imu, "p99_ms"), lost);
+    real_time.append(error).append(Text(" | %.0f MB |\n", Peak(r)));
   }
   return (any_lossless ? lossless : "") + (any_real_time ? real_time : "");
 }
