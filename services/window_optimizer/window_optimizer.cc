@@ -8,11 +8,10 @@
 namespace evit {
 namespace {
 
-constexpr std::size_t kMaxQueue = 4;                             // keyframes waiting, real-time mode
-constexpr std::size_t kMaxBootstrapQueue = 32;                   // the same while bootstrapping
-constexpr double kSolveBudget = 0.015;                           // s, real time: then the best so far counts
-constexpr auto kAskAgain = std::chrono::milliseconds(200);       // an unanswered query is sent again
-constexpr auto kAnswerPatience = std::chrono::milliseconds(20);  // real time: go on with the points at hand
+constexpr std::size_t kMaxQueue = 4;                        // keyframes waiting, real-time mode
+constexpr std::size_t kMaxBootstrapQueue = 32;              // the same while bootstrapping
+constexpr double kSolveBudget = 0.015;                      // s, real time: then the best so far counts
+constexpr auto kAskAgain = std::chrono::milliseconds(200);  // an unanswered query is sent again
 
 double Milliseconds(std::chrono::steady_clock::duration d) {
   return std::chrono::duration<double, std::milli>(d).count();
@@ -43,14 +42,6 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
   AskForPoints(tracker_.NextQuery());
 }
 
-template <typename Message>
-void WindowOptimizer::Send(const std::string& channel, Message* message, std::int64_t* seq) {
-  message->seq = (*seq)++;
-  message->epoch = status_.epoch();
-  EncodeTo(*message, &buffer_);
-  bus_->Publish(channel, buffer_.data(), buffer_.size());
-}
-
 void WindowOptimizer::AskForPoints(const VisibilityQuery& query) {
   query_ = ToMessage(query);
   query_.utime = tracker_.state_time();
@@ -77,7 +68,11 @@ void WindowOptimizer::OnMapPoints(const std::uint8_t* data, std::size_t size) {
   if (answered_ || message.query_epoch != query_.epoch || message.query_seq != query_.seq) return;
   answered_ = true;
   status_.AddTiming("map_answer", Milliseconds(Clock::now() - first_asked_));
-  tracker_.AddVisible(message.id, PointsOf(message));
+  if (work_) {
+    answer_ = std::move(message);  // for the keyframe after the one in work
+  } else {
+    tracker_.AddVisible(message.id, PointsOf(message));
+  }
   ProcessQueue();
 }
 
@@ -133,83 +128,6 @@ void WindowOptimizer::Queue(keyframe_t message) {
   queue_.push_back({std::move(message), Clock::now()});
 }
 
-bool WindowOptimizer::ReadyForNext() const {
-  if (answered_) return true;
-  // Without any answer yet there are no points at all: waiting is the only sensible thing.
-  return !settings_.lossless && last_mode_.keyframe_seq >= 0 && Clock::now() - first_asked_ > kAnswerPatience;
-}
-
-void WindowOptimizer::ProcessQueue() {
-  while (!queue_.empty() && ReadyForNext()) {
-    // Once tracking, the high-rate frames that queued up meanwhile tell nothing that the newest does not.
-    while (!settings_.lossless && tracker_.mode() == TrackerMode::kTracking && queue_.size() > 1 &&
-           queue_.front().message.high_rate != 0) {
-      queue_.pop_front();
-      ++status_.Counter("KEYFRAME.superseded");
-    }
-    const Waiting next = std::move(queue_.front());
-    queue_.pop_front();
-    const auto begin = Clock::now();
-    if (!settings_.lossless && tracker_.mode() == TrackerMode::kTracking)
-      Govern(Milliseconds(begin - next.arrived));
-    KeyframeInput input = FromMessage(next.message);
-    if (tracker_.state_time() != 0 && next.message.previous_utime != tracker_.state_time()) {
-      // A keyframe between was lost, or frame_builder started anew: the IMU samples since are our own.
-      input.imu = imu_.Between(tracker_.state_time(), input.t);
-      input.imu_gap = ImuHistory::LongestGap(input.imu);
-      ++status_.Counter("KEYFRAME.bridged");
-    }
-    if (settings_.lossless && tracker_.mode() == TrackerMode::kTracking) {
-      // Deterministic: the poses of this interval come from the state before it, as they would have live.
-      PublishPoses(input.imu, {tracker_.state().T_world_body, tracker_.state().velocity},
-                   tracker_.state().bias);
-    }
-    const bool foreseeable = tracker_.mode() == TrackerMode::kTracking;
-    if (foreseeable) AskForPoints(tracker_.QueryAfter(input));
-    const auto solving = Clock::now();
-    const TrackerOutput output = tracker_.Process(input);
-    Report(output, next.message, Milliseconds(Clock::now() - solving), next.arrived);
-    if (!foreseeable || output.mode != TrackerMode::kTracking) AskForPoints(tracker_.NextQuery());
-  }
-}
-
-void WindowOptimizer::Govern(double waited_ms) {
-  const int before = governor_.level();
-  governor_.Observe(waited_ms);
-  status_.AddTiming("wait", waited_ms);
-  if (governor_.level() == before) return;
-  tracker_.set_point_share(governor_.point_share());
-  status_.Counter("overload.level") = governor_.level();
-  if (governor_.level() > before) ++status_.Counter("overload.steps");
-}
-
-void WindowOptimizer::Report(const TrackerOutput& output, const keyframe_t& keyframe, double solve_ms,
-                             Clock::time_point arrived) {
-  const BodyState& state = tracker_.state();
-  status_.AddTiming("solve", solve_ms);
-  if (output.has_pose) {
-    window_state_t window = ToWindowState(output);
-    window.lookahead_us = keyframe.lookahead_us;
-    window.solve_ms = solve_ms;
-    window.total_ms = Milliseconds(Clock::now() - arrived);
-    status_.AddTiming("keyframe", window.total_ms);
-    Send(channels_.window_state, &window, &window_seq_);
-  }
-  last_mode_ = ToTrackerMode(output, state, keyframe.utime, keyframe.seq);
-  last_mode_.keyframe_epoch = keyframe.epoch;
-  last_mode_.keyframe_stride = governor_.keyframe_stride();
-  Send(channels_.tracker_mode, &last_mode_, &mode_seq_);
-  if (!settings_.lossless && output.mode == TrackerMode::kTracking) {
-    live_ = {state.T_world_body, state.velocity};
-    live_time_ = keyframe.utime;
-  } else {
-    live_time_ = 0;
-  }
-  static constexpr const char* kModes[] = {"bootstrapping", "tracking", "lost"};
-  ++status_.Counter(std::string("mode.") + kModes[static_cast<int>(output.mode)]);
-  status_.SetState("running", std::string(kModes[static_cast<int>(output.mode)]) + ": " + output.reason);
-}
-
 void WindowOptimizer::OnImu(const std::uint8_t* data, std::size_t size) {
   imu_batch_t message;
   if (!DecodeChecked(data, size, &message)) {
@@ -224,8 +142,7 @@ void WindowOptimizer::OnImu(const std::uint8_t* data, std::size_t size) {
     const std::vector<ImuSample> samples = imu_.Between(live_time_, sample.t);
     if (samples.empty()) continue;
     // From the newest keyframe, whose state may have come since: a few samples, and always the best estimate.
-    body_pose_t pose =
-        ToBodyPose(sample.t, PropagateImu(live_, samples, tracker_.state().bias, tracker_.gravity()));
+    body_pose_t pose = ToBodyPose(sample.t, PropagateImu(live_, samples, live_bias_, settings_.rig.gravity));
     Send(channels_.body_pose, &pose, &pose_seq_);
   }
 }
@@ -248,6 +165,9 @@ void WindowOptimizer::Tick() {
   status_.Tick();
 }
 
-void WindowOptimizer::Stop() { status_.SetState("finished", "stopped"); }
+void WindowOptimizer::Stop() {
+  if (work_) FinishWork(true);
+  status_.SetState("finished", "stopped");
+}
 
 }  // namespace evit

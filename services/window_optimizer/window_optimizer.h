@@ -2,16 +2,20 @@
 
 #include <chrono>
 #include <deque>
+#include <future>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
+#include "common/bus/codec.h"
 #include "common/service/runner.h"
 #include "common/service/sequence_counter.h"
 #include "common/service/status_reporter.h"
 #include "common/tracking/tracker.h"
 #include "evit/keyframe_t.hpp"
+#include "evit/map_points_t.hpp"
 #include "evit/map_query_t.hpp"
 #include "evit/tracker_mode_t.hpp"
 #include "services/window_optimizer/imu_history.h"
@@ -39,6 +43,9 @@ class WindowOptimizer : public Service {
 
   void Tick() override;
   void Stop() override;
+  int poll_timeout_ms() const override { return work_ ? 1 : 10; }  // a finished keyframe does not wait long
+  /// A keyframe waits or is in work.
+  bool busy() const { return work_.has_value() || !queue_.empty(); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -48,7 +55,15 @@ class WindowOptimizer : public Service {
   void OnImu(const std::uint8_t* data, std::size_t size);
   bool InOrder(SequenceCounter::Verdict verdict, const keyframe_t& message);
   void Queue(keyframe_t message);
+  struct Waiting {
+    keyframe_t message;
+    Clock::time_point arrived;
+  };
   void ProcessQueue();
+  void DropSuperseded();
+  void StartWork(Waiting next);
+  /// False where it is not done and `wait` is not set.
+  bool FinishWork(bool wait);
   void Govern(double waited_ms);
   bool ReadyForNext() const;
   void AskForPoints(const VisibilityQuery& query);
@@ -70,10 +85,6 @@ class WindowOptimizer : public Service {
   ImuHistory imu_;
   LoadGovernor governor_;  // real time only
 
-  struct Waiting {
-    keyframe_t message;
-    Clock::time_point arrived;
-  };
   std::deque<Waiting> queue_;
 
   map_query_t query_{};
@@ -83,10 +94,29 @@ class WindowOptimizer : public Service {
 
   std::pair<std::int64_t, std::int64_t> refused_{-1, -1};  // epoch and seq of the last keyframe out of order
   tracker_mode_t last_mode_{};
-  NavState live_;  // IMU-rate state, real-time mode
+  NavState live_;  // where IMU-rate poses start from, real-time mode
+  ImuBias live_bias_;
   Utime live_time_ = 0;
   std::int64_t window_seq_ = 0, mode_seq_ = 0, pose_seq_ = 0, query_seq_ = 0;
   std::vector<std::uint8_t> buffer_;
+
+  /// The keyframe that tracker_ is busy with. Last member: its thread ends before anything else is gone.
+  struct Work {
+    keyframe_t keyframe;
+    Clock::time_point arrived;
+    bool asked = false;                                    // for the points of the next keyframe
+    std::future<std::pair<TrackerOutput, double>> result;  // with ms
+  };
+  std::optional<map_points_t> answer_;  // came meanwhile
+  std::optional<Work> work_;
 };
+
+template <typename Message>
+void WindowOptimizer::Send(const std::string& channel, Message* message, std::int64_t* seq) {
+  message->seq = (*seq)++;
+  message->epoch = status_.epoch();
+  EncodeTo(*message, &buffer_);
+  bus_->Publish(channel, buffer_.data(), buffer_.size());
+}
 
 }  // namespace evit
