@@ -42,12 +42,12 @@ void Recorder::OnWindow(const window_state_t& message) {
     solve_ms_ += message.solve_ms;
   }
   // What is older than the window's first node has left it.
-  const std::int64_t first = message.node.front().keyframe_seq;
+  const Utime first = message.node.front().utime;
   while (!window_.empty() && window_.begin()->first < first) {
     if (left_.empty() || window_.begin()->second.t > left_.back().t) left_.push_back(window_.begin()->second);
     window_.erase(window_.begin());
   }
-  for (const node_state_t& node : message.node) window_[node.keyframe_seq] = PoseOf(node);
+  for (const node_state_t& node : message.node) window_[node.utime] = PoseOf(node);
 }
 
 void Recorder::OnMode(const tracker_mode_t& message) {
@@ -60,7 +60,7 @@ void Recorder::OnMode(const tracker_mode_t& message) {
 
 Trajectory Recorder::smoothed() const {
   Trajectory all = left_;
-  for (const auto& [seq, pose] : window_) {
+  for (const auto& [t, pose] : window_) {
     if (all.empty() || pose.t > all.back().t) all.push_back(pose);
   }
   return all;

@@ -54,7 +54,8 @@ class Recorder {
   void OnMode(const tracker_mode_t& message);
 
   Trajectory online_;
-  std::map<std::int64_t, StampedPose> window_;  // by keyframe number: those in the window
+  std::map<Utime, StampedPose>
+      window_;  // those in the window; keyframe numbers begin anew with frame_builder
   Trajectory left_;
   std::vector<ModeChange> mode_changes_;
   tracker_mode_t mode_{};

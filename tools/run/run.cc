@@ -52,7 +52,9 @@ std::vector<ServiceCommand> Commands(const RunJob& job, const std::string& url, 
   std::vector<ServiceCommand> commands{
       {"map_server", {"--map", job.map}, true},
       {"window_optimizer", {"--rig", job.rig, "--config", job.config, "--initial-pose", PoseText(start)}},
-      {"frame_builder", {"--rig", job.rig, "--config", job.config}},
+      // In real time what it missed is lost anyway; lossless replay is in the middle of a conversation with
+      // it.
+      {"frame_builder", {"--rig", job.rig, "--config", job.config}, !job.lossless},
       {"log_replay", replay}};
   for (ServiceCommand& command : commands) {
     std::vector<std::string>& words = command.arguments;

@@ -51,7 +51,7 @@ void FillRates(const Pipeline& pipeline, const RunOutcome& outcome, report::Repo
   if (report->keyframes() > 0) {
     report->set_cpu_ms_per_keyframe(1e3 * cpu / static_cast<double>(report->keyframes()));
   }
-  report->set_map_server_restarts(pipeline.restarts());
+  report->set_service_restarts(pipeline.restarts());
 }
 
 void Fill(const LatencyProbe::Summary& summary, report::Latency* out) {
@@ -141,7 +141,7 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
               report.keyframes(), report.keyframe_rate_hz(), report.sequence_s(), report.wall_s(),
               report.real_time_factor(), report.cpu_ms_per_keyframe());
   if (outcome.latency != nullptr) PrintLatency(report);
-  std::printf("%.0f messages lost, map_server restarted %d times\n", Lost(report), pipeline.restarts());
+  std::printf("%.0f messages lost, services restarted %d times\n", Lost(report), pipeline.restarts());
   std::printf("results: %s/{trajectory.tum,smoothed.tum,report.json,trajectory.png}\n", job.out.c_str());
   std::fflush(stdout);
   if (report.keyframes() == 0 || report.final_mode() != "TRACKING") {
