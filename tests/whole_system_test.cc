@@ -54,6 +54,32 @@ class WholeSystemTest : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
   std::string Path(const std::string& name) const { return (folder_ / name).string(); }
+  // Kills a service twice in a run of 3 s.
+  void KillInRealTime(const std::string& service) {
+    // A rig file of its own tells this test's processes from others'.
+    fs::copy_file(kLogs + "rig.textproto", Path("rig_of_this_test.textproto"));
+    std::string command = RunCommand("out", "--realtime");
+    command.replace(command.find(kLogs + "rig.textproto"), (kLogs + "rig.textproto").size(),
+                    Path("rig_of_this_test.textproto"));
+    std::thread killer([&] {
+      for (int k = 0; k < 2; ++k) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1300));
+        Shell("pkill -9 -f '^[^ ]*/" + service + " --rig " + Path("rig_of_this_test.textproto") + "'");
+      }
+    });
+    const Result result = Shell(command);
+    killer.join();
+    ASSERT_EQ(result.code, 0) << result.output;
+    EXPECT_GE(Restarts("out"), 1) << result.output;
+    ExpectGood(Path("out/trajectory.tum"), 0.02, 0.8);
+    Utime longest = 0;  // without a pose
+    const Trajectory online = ReadTum(Path("out/trajectory.tum"));
+    for (std::size_t k = 1; k < online.size(); ++k)
+      longest = std::max(longest, online[k].t - online[k - 1].t);
+    std::printf("longest time without a pose: %.0f ms\n", static_cast<double>(longest) * 1e-3);
+    EXPECT_LT(longest, 700'000);
+    EXPECT_FALSE(fs::exists(Path("out/checkpoint")));
+  }
   int Restarts(const std::string& out) const {
     const std::string report = ReadAll(Path(out + "/report.json")), key = "\"service_restarts\": ";
     const auto at = report.find(key);
@@ -120,27 +146,9 @@ TEST_F(WholeSystemTest, SurvivesItsMapServer) {
   ExpectGood(Path("killed/trajectory.tum"), 0.015, 0.6);
 }
 
-TEST_F(WholeSystemTest, SurvivesItsFrameBuilderInRealTime) {
-  // A rig file of its own tells this test's frame_builder from others'.
-  fs::copy_file(kLogs + "rig.textproto", Path("rig_of_this_test.textproto"));
-  std::string command = RunCommand("rebuilt", "--realtime");
-  command.replace(command.find(kLogs + "rig.textproto"), (kLogs + "rig.textproto").size(),
-                  Path("rig_of_this_test.textproto"));
-  std::thread killer([this] {
-    for (int k = 0; k < 2; ++k) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1300));
-      Shell("pkill -9 -f '^[^ ]*/frame_builder --rig " + Path("rig_of_this_test.textproto") + "'");
-    }
-  });
-  const Result result = Shell(command);
-  killer.join();
-  ASSERT_EQ(result.code, 0) << result.output;
-  EXPECT_GE(Restarts("rebuilt"), 1) << result.output;
-  ExpectGood(Path("rebuilt/trajectory.tum"), 0.02, 0.8);
-  // Of 3 s with two interruptions at most half a second each is missing.
-  const Trajectory smoothed = ReadTum(Path("rebuilt/smoothed.tum"));
-  for (std::size_t k = 1; k < smoothed.size(); ++k) EXPECT_LT(smoothed[k].t - smoothed[k - 1].t, 500'000);
-}
+TEST_F(WholeSystemTest, SurvivesItsFrameBuilderInRealTime) { KillInRealTime("frame_builder"); }
+
+TEST_F(WholeSystemTest, SurvivesItsOptimizerInRealTime) { KillInRealTime("window_optimizer"); }
 
 TEST_F(WholeSystemTest, LcmToolsPlayAndRecord) {
   // The stock player feeds the three other services; the stock logger records what they say.

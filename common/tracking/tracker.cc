@@ -50,6 +50,12 @@ Tracker::Tracker(const Rig& rig, const config::Tracker& config, const SE3& T_map
   state_.T_world_body = anchor_ = T_map_body;
 }
 
+void Tracker::StartFrom(const BodyState& state) {
+  state_ = state;
+  anchor_ = state.T_world_body;
+  reason_ = "going on from a checkpoint";
+}
+
 void Tracker::SetMode(TrackerMode mode, std::string reason) {
   mode_ = mode;
   reason_ = std::move(reason);

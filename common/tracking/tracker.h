@@ -51,6 +51,9 @@ class Tracker {
   /// `T_map_body`: pose at the first keyframe, to some centimetres and degrees.
   Tracker(const Rig& rig, const config::Tracker& config, const SE3& T_map_body);
 
+  /// Looks for the map at this state instead, before the first keyframe: velocity and biases are trusted.
+  void StartFrom(const BodyState& state);
+
   /// The view whose points the next keyframe needs.
   VisibilityQuery NextQuery() const;
   /// The same for the keyframe after this one, before it is processed: from its IMU samples, so that the
@@ -71,6 +74,8 @@ class Tracker {
   const BodyState& state() const { return state_; }
   Utime state_time() const { return state_time_; }
   double gravity() const { return rig_.gravity; }
+  /// Newest gyro reading less its bias, rad/s.
+  const Eigen::Vector3d& rate() const { return rate_; }
 
  private:
   void ProcessBootstrap(const KeyframeInput& keyframe, TrackerOutput* out);

@@ -26,12 +26,32 @@ void WindowOptimizer::ProcessQueue() {
   while (true) {
     if (work_ && !FinishWork(false)) return;
     if (queue_.empty() || !ReadyForNext()) return;
+    if (checkpoint_ && Resumed()) return;  // its points first
     DropSuperseded();
     Waiting next = std::move(queue_.front());
     queue_.pop_front();
     StartWork(std::move(next));
     if (settings_.lossless) FinishWork(true);
   }
+}
+
+// At the first keyframe: whether it follows the checkpoint, so that the tracker starts where the body must be
+// now.
+bool WindowOptimizer::Resumed() {
+  constexpr Utime kLongest = 3'000'000;  // us: beyond that the prediction is worth nothing
+  const Checkpoint checkpoint = *std::exchange(checkpoint_, std::nullopt);
+  const Utime dt = queue_.front().message.utime - checkpoint.t;
+  if (dt < 0 || dt > kLongest) {
+    BodyState start;
+    start.T_world_body = settings_.T_map_body;
+    tracker_.StartFrom(start);
+    ++status_.Counter("checkpoint.stale");
+  } else {
+    tracker_.StartFrom(checkpoint.After(dt));
+    ++status_.Counter("checkpoint.used");
+  }
+  AskForPoints(tracker_.NextQuery());
+  return true;
 }
 
 // Once tracking, the high-rate frames that queued up meanwhile tell nothing that the newest does not.
@@ -114,6 +134,10 @@ void WindowOptimizer::Report(const TrackerOutput& output, const keyframe_t& keyf
   if (!settings_.lossless && output.mode == TrackerMode::kTracking) {
     live_ = {state.T_world_body, state.velocity};
     live_bias_ = state.bias;
+    if (!settings_.checkpoint.empty() &&
+        !SaveCheckpoint(settings_.checkpoint, {keyframe.utime, state, tracker_.rate()})) {
+      ++status_.Counter("checkpoint.failed");
+    }
     live_time_ = keyframe.utime;
   } else {
     live_time_ = 0;

@@ -22,12 +22,15 @@ evit::SE3 ParsePose(const std::string& text) {
 
 int Main(int argc, char** argv) {
   CLI::App app{"Tracks the body's 6-DoF pose in a known map from keyframes and IMU (LCM service)."};
-  std::string rig, config, pose;
+  std::string rig, config, pose, checkpoint;
   evit::ServiceOptions options;
   app.add_option("--rig", rig, "Calibration of camera and IMU (text protobuf)")->required();
   app.add_option("--config", config, "Tracker settings (text protobuf)")->required();
   app.add_option("--initial-pose", pose, "Body in the map at the first keyframe: \"x y z qx qy qz qw\"")
       ->required();
+  app.add_option(
+      "--checkpoint", checkpoint,
+      "File with the newest state, to go on from after a restart (real time; delete it to start anew)");
   evit::AddServiceOptions(&app, &options);
   try {
     app.parse(argc, argv);
@@ -35,7 +38,7 @@ int Main(int argc, char** argv) {
     return app.exit(error);
   }
   const evit::WindowOptimizer::Settings settings{evit::LoadRig(rig), evit::LoadTracker(config),
-                                                 ParsePose(pose), options.lossless};
+                                                 ParsePose(pose), options.lossless, checkpoint};
   const auto bus = evit::OpenServiceBus(options);
   evit::WindowOptimizer service(bus.get(), evit::Channels(options.prefix), settings);
   return evit::RunService(&service, bus.get());

@@ -39,6 +39,10 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
   last_mode_.keyframe_stride = 1;
   if (!settings.lossless) tracker_.set_solve_budget(kSolveBudget);
   status_.SetState("waiting", "waiting for map_server and for keyframes");
+  if (!settings.lossless && !settings.checkpoint.empty()) {
+    checkpoint_ = LoadCheckpoint(settings.checkpoint);
+    if (checkpoint_) tracker_.StartFrom(checkpoint_->state);
+  }
   AskForPoints(tracker_.NextQuery());
 }
 

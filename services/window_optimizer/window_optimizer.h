@@ -4,6 +4,7 @@
 #include <deque>
 #include <future>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "evit/map_points_t.hpp"
 #include "evit/map_query_t.hpp"
 #include "evit/tracker_mode_t.hpp"
+#include "services/window_optimizer/checkpoint.h"
 #include "services/window_optimizer/imu_history.h"
 #include "services/window_optimizer/load_governor.h"
 
@@ -37,6 +39,7 @@ class WindowOptimizer : public Service {
     config::Tracker tracker;
     SE3 T_map_body;  // of the body at the first keyframe
     bool lossless = false;
+    std::string checkpoint;  // file; real time only; empty: none
   };
   /// `bus` must outlive this.
   WindowOptimizer(Bus* bus, const Channels& channels, const Settings& settings);
@@ -60,6 +63,7 @@ class WindowOptimizer : public Service {
     Clock::time_point arrived;
   };
   void ProcessQueue();
+  bool Resumed();
   void DropSuperseded();
   void StartWork(Waiting next);
   /// False where it is not done and `wait` is not set.
@@ -94,7 +98,8 @@ class WindowOptimizer : public Service {
 
   std::pair<std::int64_t, std::int64_t> refused_{-1, -1};  // epoch and seq of the last keyframe out of order
   tracker_mode_t last_mode_{};
-  NavState live_;  // where IMU-rate poses start from, real-time mode
+  std::optional<Checkpoint> checkpoint_;  // to go on from, until the first keyframe
+  NavState live_;                         // where IMU-rate poses start from, real-time mode
   ImuBias live_bias_;
   Utime live_time_ = 0;
   std::int64_t window_seq_ = 0, mode_seq_ = 0, pose_seq_ = 0, query_seq_ = 0;

@@ -49,9 +49,16 @@ std::vector<ServiceCommand> Commands(const RunJob& job, const std::string& url, 
   }
   // In real time nobody waits: playing begins when all the others are there.
   if (!job.lossless) replay.insert(replay.end(), {"--speed", std::to_string(job.speed), "--start-paused"});
+  std::vector<std::string> optimizer{"--rig",    job.rig,          "--config",
+                                     job.config, "--initial-pose", PoseText(start)};
+  if (!job.lossless) {
+    const std::string checkpoint = job.out + "/checkpoint";
+    std::filesystem::remove(checkpoint);  // of an earlier run
+    optimizer.insert(optimizer.end(), {"--checkpoint", checkpoint});
+  }
   std::vector<ServiceCommand> commands{
       {"map_server", {"--map", job.map}, true},
-      {"window_optimizer", {"--rig", job.rig, "--config", job.config, "--initial-pose", PoseText(start)}},
+      {"window_optimizer", optimizer, !job.lossless},
       // In real time what it missed is lost anyway; lossless replay is in the middle of a conversation with
       // it.
       {"frame_builder", {"--rig", job.rig, "--config", job.config}, !job.lossless},
@@ -163,7 +170,8 @@ int Run(const RunJob& job) {
   outcome.wall_s = SecondsSince(begin);
   outcome.latency = latency.get();
   pipeline.Stop();
-  while (bus->Poll(50) > 0) {  // each service's last STATUS
+  std::filesystem::remove(job.out + "/checkpoint");  // for restarts within this run only
+  while (bus->Poll(50) > 0) {                        // each service's last STATUS
   }
   return WriteResults(job, inputs, recorder, pipeline, outcome);
 }
