@@ -109,7 +109,7 @@ class WindowOptimizer : public Service {
   struct Work {
     keyframe_t keyframe;
     Clock::time_point arrived;
-    bool asked = false;                                    // for the points of the next keyframe
+    bool asked;                                            // for the points of the next keyframe
     std::future<std::pair<TrackerOutput, double>> result;  // with ms
   };
   std::optional<map_points_t> answer_;  // came meanwhile
