@@ -1,12 +1,25 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 #include <string>
 
 #include "tools/evit/commands.h"
 #include "tools/evit/simulate_command.h"
 
 namespace {
+
+// CLI11 would only say that a subcommand is required.
+void RequireKnownCommand(CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    if (command->get_name() == argv[1]) return;
+    known.append(known.empty() ? "" : ", ").append(command->get_name());
+  }
+  throw std::runtime_error(
+      std::string("there is no command \"").append(argv[1]).append("\"; known: ").append(known));
+}
 
 int Main(int argc, char** argv) {
   CLI::App app{
@@ -19,6 +32,7 @@ int Main(int argc, char** argv) {
   evit::AddRunCommand(&app);
   evit::AddEvalCommand(&app);
   try {
+    RequireKnownCommand(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
