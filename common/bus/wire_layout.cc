@@ -115,6 +115,15 @@ bool CheckField(const WireField& field, WireCursor* cursor, Counts* counts) {
       }
       return true;
     }
+    case WireField::Kind::kGroup: {
+      const std::int64_t n = counts->Get(field.rows);
+      for (std::int64_t i = 0; i < n; ++i) {
+        for (const WireField& inner : *field.fields) {
+          if (!CheckField(inner, cursor, counts)) return false;
+        }
+      }
+      return true;
+    }
   }
   return false;
 }

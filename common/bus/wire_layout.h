@@ -9,13 +9,14 @@ namespace evit {
 
 /// One field of a message as LCM puts it on the wire (big-endian, no padding), or a run of fixed-size fields.
 struct WireField {
-  enum class Kind { kBytes, kCount, kArray, kText };
+  enum class Kind { kBytes, kCount, kArray, kText, kGroup };
   Kind kind;
   int size;              // kBytes: bytes in all; kArray: bytes per element
   const char* name;      // kCount, kText: of the field
   std::int32_t maximum;  // kCount: largest value accepted (the smallest is 0)
-  const char* rows;      // kArray: the count that says how many; kText: null for one string, else the count
+  const char* rows;      // kArray, kGroup: the count that says how many; kText: null for one string, else the count
   const char* columns;   // kArray: second count, null where there is none
+  const std::vector<WireField>* fields = nullptr;  // kGroup: of each element; must outlive the layout
 };
 
 /// All fields in order, the fingerprint before them not counted.
@@ -34,6 +35,10 @@ constexpr WireField Array(int bytes, const char* rows, const char* columns = nul
 /// A string, or `rows` strings: int32 length with the closing NUL, then the characters.
 constexpr WireField Text(const char* name, const char* rows = nullptr) {
   return {WireField::Kind::kText, 0, name, 0, rows, nullptr};
+}
+/// `rows` elements, each of them these fields in a row (no counts among them).
+constexpr WireField Group(const WireLayout* fields, const char* rows) {
+  return {WireField::Kind::kGroup, 0, nullptr, 0, rows, nullptr, fields};
 }
 
 /// Longest string accepted, bytes.

@@ -78,7 +78,40 @@ LogReplay::LogReplay(const LogReplayOptions& options, Bus* bus, const Channels& 
       OnCredit(data, size);
     });
   }
+  if (!options.position.empty()) {
+    if (options.lossless) throw std::runtime_error("--position does not go with --lossless");
+    // Another part of the same recording is another stream too.
+    status_.Counter("continued") = 0;
+    position_.emplace(options.position, recording_.fingerprint() + static_cast<std::int64_t>(begin_ << 32 ^ end_));
+    const std::optional<ReplayPosition> position = position_->Load();
+    if (position && position->next >= static_cast<std::int64_t>(begin_) &&
+        position->next <= static_cast<std::int64_t>(end_)) {
+      Continue(*position);
+      return;
+    }
+  }
   StartStream(begin_);
+}
+
+void LogReplay::Continue(const ReplayPosition& position) {
+  sender_.Continue(position);
+  next_ = static_cast<std::size_t>(position.next);
+  paused_ = position.paused != 0;
+  phase_ = position.ended != 0 ? Phase::kEnded : Phase::kSending;
+  if (position.speed > 0) pacer_ = Pacer(position.speed);
+  pacer_.Start(SteadyTime(), DataTime());
+  ++status_.Counter("continued");
+}
+
+void LogReplay::StorePosition() {
+  if (!position_) return;
+  ReplayPosition position;
+  position.next = static_cast<std::int64_t>(next_);
+  position.ended = phase_ == Phase::kEnded ? 1 : 0;
+  position.paused = paused_ ? 1 : 0;
+  position.speed = pacer_.speed();
+  sender_.Save(&position);
+  position_->Store(position);
 }
 
 void LogReplay::StartStream(std::size_t position) {
@@ -91,6 +124,7 @@ void LogReplay::StartStream(std::size_t position) {
   delivered_us_ = 0;
   if (phase_ == Phase::kEnded) phase_ = Phase::kSending;
   pacer_.Start(SteadyTime(), DataTime());
+  StorePosition();
 }
 
 std::int64_t LogReplay::DataTime() const { return recording_.utime(std::min(next_, end_ - 1)); }
@@ -99,6 +133,7 @@ void LogReplay::SetPaused(bool paused) {
   if (paused == paused_) return;
   paused_ = paused;
   if (!paused) pacer_.Start(SteadyTime(), DataTime());
+  StorePosition();
   Report(SteadyTime());
 }
 
@@ -173,6 +208,7 @@ void LogReplay::Send(std::int64_t now_us) {
   if (phase_ == Phase::kSending && next_ == end_) {
     phase_ = Phase::kEnded;
     end_sent_us_ = 0;
+    StorePosition();
     Report(now_us);
   }
 }
@@ -196,7 +232,9 @@ bool LogReplay::SendOneNew(std::int64_t now_us) {
   const std::size_t i = next_++;
   const Recording::Kind kind = recording_.kind(i);
   const std::int64_t seq = sender_.sent(kind);
-  if (!sender_.SendNew(i) || !options_.lossless || kind == Recording::kGroundTruth) return true;
+  const bool sent = sender_.SendNew(i);
+  StorePosition();
+  if (!sent || !options_.lossless || kind == Recording::kGroundTruth) return true;
   window_.Sent({static_cast<SendWindow::Stream>(kind), seq, bytes, i}, now_us);
   return true;
 }
@@ -264,6 +302,8 @@ void LogReplay::Report(std::int64_t now_us) {
 }
 
 void LogReplay::Stop() {
+  // Played to its end, it begins anew next time; stopped or killed before, it goes on.
+  if (position_ && phase_ == Phase::kEnded) position_->Clear();
   status_.SetState("finished", options_.log + ": stopped");
   status_.Publish();
 }

@@ -14,6 +14,7 @@
 #include "common/service/sequence_counter.h"
 #include "common/service/status_reporter.h"
 #include "services/log_replay/pacer.h"
+#include "services/log_replay/position_file.h"
 #include "services/log_replay/recording.h"
 #include "services/log_replay/stream_sender.h"
 
@@ -30,6 +31,7 @@ struct LogReplayOptions {
   std::optional<std::int64_t> from_utime;            // us: start here
   std::optional<std::pair<double, double>> seconds;  // s after the log's first message: from, to
   bool exit_at_end = false;
+  std::string position;  // file; real time only: a successor goes on from where this one died. Empty: none
   std::int64_t resend_us = 200'000;  // without progress for this long, what is under way is sent again
 };
 
@@ -55,6 +57,8 @@ class LogReplay : public Service {
   void OnControl(const std::uint8_t* data, std::size_t size);
   void OnCredit(const std::uint8_t* data, std::size_t size);
   void StartStream(std::size_t position);
+  void Continue(const ReplayPosition& position);
+  void StorePosition();
   void SetPaused(bool paused);
   void Send(std::int64_t now_us);
   bool SendOneAgain();
@@ -73,6 +77,7 @@ class LogReplay : public Service {
   StreamSender sender_;
   SendWindow window_;
   Pacer pacer_;
+  std::optional<PositionFile> position_;
   std::size_t begin_ = 0, end_ = 0;  // of the part that is replayed
   std::size_t next_ = 0;             // next new message
   Phase phase_ = Phase::kWaiting;

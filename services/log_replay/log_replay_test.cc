@@ -261,6 +261,45 @@ TEST_F(LogReplayTest, RealTimeNeedsNoConsumer) {
   EXPECT_EQ(Counter("REPLAY_CONTROL.refused"), 1);
 }
 
+TEST_F(LogReplayTest, ASuccessorGoesOnWithTheSameStream) {
+  options_.lossless = false;
+  options_.speed = 10;
+  options_.position = path_ + ".position";
+  std::filesystem::remove(options_.position);
+  Start();
+  const auto play_until = [&](auto condition) {
+    const auto begin = std::chrono::steady_clock::now();
+    while (!condition() && std::chrono::steady_clock::now() - begin < std::chrono::seconds(5)) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(replay_->poll_timeout_ms()));
+      Step(false);
+    }
+  };
+  play_until([&] { return events_.size() >= 30; });
+  Start();  // as if killed: nobody called Stop()
+  EXPECT_EQ(Counter("continued"), 1);
+  play_until([&] { return !end_.empty(); });
+  ASSERT_EQ(events_.size(), 100U);
+  for (std::size_t k = 0; k < events_.size(); ++k) {
+    EXPECT_EQ(events_[k].seq, static_cast<std::int64_t>(k));
+    EXPECT_EQ(events_[k].epoch, events_[0].epoch);
+  }
+  EXPECT_EQ(imu_.size(), 200U);
+  EXPECT_EQ(end_.back().n_events_messages, 100);
+
+  Start();  // killed after the end: it still says so
+  Step(false);
+  EXPECT_EQ(end_.back().epoch, events_[0].epoch);
+  replay_->Stop();
+  Start();  // after a clean end: from the beginning
+  EXPECT_EQ(Counter("continued"), 0);
+
+  TestRecording other;
+  other.packets = 50;
+  Start(other);  // another recording: its position means nothing
+  EXPECT_EQ(Counter("continued"), 0);
+  std::filesystem::remove(options_.position);
+}
+
 TEST_F(LogReplayTest, OptionsThatDisagreeAreErrors) {
   options_.wait_for.clear();
   EXPECT_THROW(Start(), std::runtime_error);
@@ -269,6 +308,14 @@ TEST_F(LogReplayTest, OptionsThatDisagreeAreErrors) {
   EXPECT_THROW(Start(), std::runtime_error);
   options_.speed = 1;
   options_.from_utime = 100'000'000;
+  EXPECT_THROW(Start(), std::runtime_error);
+  options_.from_utime.reset();
+  options_.position = "/nonexistent/folder/position";
+  EXPECT_THROW(Start(), std::runtime_error);
+  options_.position.clear();
+  options_.lossless = true;
+  options_.wait_for = {"c"};
+  options_.position = path_ + ".position";
   EXPECT_THROW(Start(), std::runtime_error);
 }
 

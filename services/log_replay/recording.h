@@ -30,6 +30,11 @@ class Recording {
   std::int64_t end_utime() const { return messages_.back().entry.utime; }
   std::int32_t bytes(std::size_t i) const { return messages_[i].entry.size; }
 
+  /// A number that differs between recordings (size and time span).
+  std::int64_t fingerprint() const {
+    return static_cast<std::int64_t>(size()) * 1'000'003 ^ begin_utime() ^ end_utime() << 1;
+  }
+
   /// First message at or after `utime`; size() where there is none.
   std::size_t FirstAt(std::int64_t utime) const;
 

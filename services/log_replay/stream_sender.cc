@@ -42,6 +42,18 @@ void StreamSender::Restart(std::int64_t epoch) {
   last_utime_.fill(kNever);
 }
 
+void StreamSender::Continue(const ReplayPosition& position) {
+  epoch_ = position.epoch;
+  next_ = position.sent;
+  last_utime_ = position.last_utime;
+}
+
+void StreamSender::Save(ReplayPosition* position) const {
+  position->epoch = epoch_;
+  position->sent = next_;
+  position->last_utime = last_utime_;
+}
+
 std::int64_t StreamSender::last_utime(std::int64_t otherwise) const {
   const std::int64_t last = *std::max_element(last_utime_.begin(), last_utime_.end());
   return last == kNever ? otherwise : last;

@@ -10,6 +10,7 @@
 #include "common/bus/channels.h"
 #include "common/bus/codec.h"
 #include "common/service/status_reporter.h"
+#include "services/log_replay/position_file.h"
 #include "services/log_replay/recording.h"
 
 namespace evit {
@@ -23,6 +24,10 @@ class StreamSender {
 
   /// A new stream: seq from 0, no memory of earlier times.
   void Restart(std::int64_t epoch);
+  /// The stream of an earlier process, as if it had never ended.
+  void Continue(const ReplayPosition& position);
+  /// Puts its own share into `position`.
+  void Save(ReplayPosition* position) const;
 
   /// Sends message `i` of the recording as the next of its stream. False where it was dropped.
   bool SendNew(std::size_t i);

@@ -1,43 +1,39 @@
 #include "tools/run/pipeline.h"
 
-#include <filesystem>
 #include <stdexcept>
 
 namespace evit {
 namespace {
 
-constexpr int kMaxRestarts = 20;
+constexpr int kMaxEarlyDeaths = 7;  // in a row: 10, 20 ... 1000 ms between them, some 2 s in all
 
 }  // namespace
 
-Pipeline::Pipeline(const std::vector<ServiceCommand>& services, const std::string& programs,
-                   const std::string& logs)
-    : services_(services) {
-  for (const ServiceCommand& service : services_) {
-    const std::string log = (std::filesystem::path(logs) / (service.name + ".log")).string();
-    std::filesystem::remove(log);
-    children_.push_back(std::make_unique<Child>(
-        service.name, (std::filesystem::path(programs) / service.name).string(), service.arguments, log));
-  }
+Pipeline::Pipeline(Bus* bus, const std::string& deputy, const std::vector<ProcmanCommand>& services,
+                   const std::string& programs, const std::string& logs)
+    : deputy_(bus, deputy, services, {programs, logs}),
+      processes_(deputy_.supervisor().processes()),
+      runs_(services.size(), 1) {
+  for (const ProcmanCommand& service : services) deputy_.supervisor().Start(service.id);
 }
 
 void Pipeline::Watch() {
-  for (std::size_t k = 0; k < children_.size(); ++k) {
-    Child& child = *children_[k];
-    if (child.Running()) continue;
-    if (services_[k].replaceable && restarts_ < kMaxRestarts) {
-      ++restarts_;
-      child.Start();
-      continue;
+  deputy_.Tick();
+  for (std::size_t k = 0; k < processes_.size(); ++k) {
+    const ManagedProcess& process = *processes_[k];
+    const bool waiting = process.state() == ManagedProcess::State::kWaiting;
+    // Ordered restarts (evit restart) are no deaths.
+    if (waiting && process.died() && process.runs() == runs_[k]) {
+      deaths_.push_back({process.command().id, std::chrono::steady_clock::now()});
+      ++runs_[k];
     }
-    const std::string words = child.LastWords();
-    throw std::runtime_error(child.name() + " died with " + child.end() +
+    if (!waiting && process.runs() > runs_[k]) runs_[k] = process.runs();
+    const bool given_up = process.early_deaths() >= kMaxEarlyDeaths;
+    if (!process.died() || (waiting && !given_up)) continue;
+    const std::string words = process.LastWords();
+    throw std::runtime_error(process.command().id + " died with " + process.end() +
                              (words.empty() ? ", without a word" : "; its last words:" + words));
   }
-}
-
-void Pipeline::Stop() {
-  for (auto child = children_.rbegin(); child != children_.rend(); ++child) (*child)->Stop();
 }
 
 }  // namespace evit

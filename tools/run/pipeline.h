@@ -1,42 +1,44 @@
 #pragma once
 
-#include <memory>
+#include <chrono>
 #include <string>
 #include <vector>
 
-#include "tools/run/child.h"
+#include "common/bus/bus.h"
+#include "procman/deputy.h"
 
 namespace evit {
 
-/// One service to start: its name, which is its program's too, and its arguments.
-struct ServiceCommand {
-  std::string name;
-  std::vector<std::string> arguments;
-  bool replaceable = false;  // keeps nothing that a run needs: is started again when it dies
-};
-
-/// The services of one run as child processes. They end with this object.
+/// The services of one run, under a deputy of their own. They end with this object.
 class Pipeline {
  public:
-  /// Starts `services` in their order. `programs`: folder of the executables; `logs`: folder for NAME.log,
-  /// what each one says. Throws std::runtime_error where one cannot be started.
-  Pipeline(const std::vector<ServiceCommand>& services, const std::string& programs, const std::string& logs);
+  struct Death {
+    std::string service;
+    std::chrono::steady_clock::time_point at;
+  };
 
-  /// Call often. Starts a dead replaceable service again. Throws std::runtime_error, with its last words,
-  /// where another one has died or a replaceable one dies at every start.
+  /// Starts `services` in their order. `deputy`: its id on PM_INFO. `programs`: folder of the executables; `logs`:
+  /// folder for NAME.log, what each one says. `bus` must outlive this. Throws std::runtime_error where one cannot
+  /// be started.
+  Pipeline(Bus* bus, const std::string& deputy, const std::vector<ProcmanCommand>& services,
+           const std::string& programs, const std::string& logs);
+
+  /// Call often. Throws std::runtime_error, with its last words, where one has died that is not to be started
+  /// again, or dies at every start.
   void Watch();
 
-  /// SIGINT to each, the last one started first: the sources go before those who wait for them.
-  void Stop();
+  /// Ends each, the last one started first: the sources go before those who wait for them.
+  void Stop() { deputy_.supervisor().StopAll(); }
 
-  /// How often a replaceable service was started again.
-  int restarts() const { return restarts_; }
-  const std::vector<std::unique_ptr<Child>>& children() const { return children_; }
+  /// Those that died and were started again.
+  const std::vector<Death>& deaths() const { return deaths_; }
+  const std::vector<std::unique_ptr<ManagedProcess>>& processes() const { return processes_; }
 
  private:
-  std::vector<ServiceCommand> services_;
-  std::vector<std::unique_ptr<Child>> children_;
-  int restarts_ = 0;
+  Deputy deputy_;
+  const std::vector<std::unique_ptr<ManagedProcess>>& processes_;
+  std::vector<int> runs_;  // of each process, seen so far
+  std::vector<Death> deaths_;
 };
 
 }  // namespace evit

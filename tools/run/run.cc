@@ -16,6 +16,7 @@
 #include "tools/progress.h"
 #include "tools/run/latency.h"
 #include "tools/run/local_network.h"
+#include "tools/run/outages.h"
 #include "tools/run/pipeline.h"
 #include "tools/run/recorder.h"
 #include "tools/run/run_inputs.h"
@@ -28,6 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kRealTimeSilence = 5;  // s after the end of the log: nothing more is to come
 constexpr double kStuck = 60;           // s without anything from the tracker
+constexpr char kCheckpoint[] = "checkpoint", kPosition[] = "position";  // files for restarts within a run
 
 volatile std::sig_atomic_t g_interrupted = 0;
 void OnSignal(int /*signal*/) { g_interrupted = 1; }
@@ -41,33 +43,40 @@ std::string PoseText(const SE3& pose) {
   return line.substr(line.find(' ') + 1);
 }
 
-std::vector<ServiceCommand> Commands(const RunJob& job, const std::string& url, const SE3& start) {
-  std::vector<std::string> replay{"--log", job.log};
+std::vector<ProcmanCommand> Commands(const RunJob& job, const std::string& url, const SE3& start) {
+  const auto state_file = [&](const char* name) {
+    std::string path = job.out + "/" + name;
+    std::filesystem::remove(path);  // of an earlier run
+    return path;
+  };
+  std::vector<std::string> map_server{"map_server", "--map", job.map};
+  std::vector<std::string> optimizer{"window_optimizer", "--rig", job.rig, "--config", job.config,
+                                     "--initial-pose", PoseText(start)};
+  std::vector<std::string> builder{"frame_builder", "--rig", job.rig, "--config", job.config};
+  std::vector<std::string> replay{"log_replay", "--log", job.log};
   if (job.seconds) {
     const auto [begin, end] = *job.seconds;
     replay.insert(replay.end(), {"--seconds", std::to_string(begin) + ":" + std::to_string(end)});
   }
-  // In real time nobody waits: playing begins when all the others are there.
-  if (!job.lossless) replay.insert(replay.end(), {"--speed", std::to_string(job.speed), "--start-paused"});
-  std::vector<std::string> optimizer{"--rig",    job.rig,          "--config",
-                                     job.config, "--initial-pose", PoseText(start)};
   if (!job.lossless) {
-    const std::string checkpoint = job.out + "/checkpoint";
-    std::filesystem::remove(checkpoint);  // of an earlier run
-    optimizer.insert(optimizer.end(), {"--checkpoint", checkpoint});
+    optimizer.insert(optimizer.end(), {"--checkpoint", state_file(kCheckpoint)});
+    // In real time nobody waits: playing begins when all the others are there.
+    replay.insert(replay.end(), {"--speed", std::to_string(job.speed), "--start-paused", "--position",
+                                 state_file(kPosition)});
   }
-  std::vector<ServiceCommand> commands{
-      {"map_server", {"--map", job.map}, true},
-      {"window_optimizer", optimizer, !job.lossless},
-      // In real time what it missed is lost anyway; lossless replay is in the middle of a conversation with
-      // it.
-      {"frame_builder", {"--rig", job.rig, "--config", job.config}, !job.lossless},
-      {"log_replay", replay}};
-  for (ServiceCommand& command : commands) {
-    std::vector<std::string>& words = command.arguments;
-    words.insert(words.end(), {"--lcm-url", url});
-    if (!job.prefix.empty()) words.insert(words.end(), {"--prefix", job.prefix});
-    if (job.lossless && command.name != "map_server") words.emplace_back("--lossless");
+  std::vector<ProcmanCommand> commands;
+  for (std::vector<std::string>* words : {&map_server, &optimizer, &builder, &replay}) {
+    words->insert(words->end(), {"--lcm-url", url});
+    if (!job.prefix.empty()) words->insert(words->end(), {"--prefix", job.prefix});
+    if (job.lossless && words != &map_server) words->emplace_back("--lossless");
+    ProcmanCommand command;
+    command.id = words->front();
+    command.exec = JoinCommandLine(*words);
+    command.group = "evit";
+    // Lossless replay is in the middle of a conversation that counts messages: only map_server keeps out of it.
+    command.auto_respawn = !job.lossless || words == &map_server;
+    command.stop_time_allowed = 2;
+    commands.push_back(std::move(command));
   }
   return commands;
 }
@@ -164,13 +173,17 @@ int Run(const RunJob& job) {
   if (!job.lossless && job.speed == 1) latency = std::make_unique<LatencyProbe>(bus.get(), channels);
   const auto begin = Clock::now();
   const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  Pipeline pipeline(Commands(job, url, inputs.start), programs, job.out);
+  Outages outages(bus.get(), channels);
+  Pipeline pipeline(bus.get(), "evit" + job.prefix, Commands(job, url, inputs.start), programs, job.out);
   RunOutcome outcome;
+  outcome.begin = begin;
   outcome.ended = WaitForEnd(job, bus.get(), channels, &recorder, &pipeline);
+  outcome.end = Clock::now();
   outcome.wall_s = SecondsSince(begin);
+  outcome.outages = &outages;
   outcome.latency = latency.get();
   pipeline.Stop();
-  std::filesystem::remove(job.out + "/checkpoint");  // for restarts within this run only
+  for (const char* name : {kCheckpoint, kPosition}) std::filesystem::remove(job.out + "/" + name);
   while (bus->Poll(50) > 0) {                        // each service's last STATUS
   }
   return WriteResults(job, inputs, recorder, pipeline, outcome);

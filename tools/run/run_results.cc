@@ -47,11 +47,22 @@ void FillRates(const Pipeline& pipeline, const RunOutcome& outcome, report::Repo
   report->set_real_time_factor(sequence / outcome.wall_s);
   if (sequence > 0) report->set_keyframe_rate_hz(static_cast<double>(report->keyframes()) / sequence);
   double cpu = 0;
-  for (const auto& child : pipeline.children()) cpu += child->cpu_seconds();
+  for (const auto& process : pipeline.processes()) cpu += process->cpu_seconds();
   if (report->keyframes() > 0) {
     report->set_cpu_ms_per_keyframe(1e3 * cpu / static_cast<double>(report->keyframes()));
   }
-  report->set_service_restarts(pipeline.restarts());
+  report->set_service_restarts(static_cast<std::int32_t>(pipeline.deaths().size()));
+}
+
+void FillRestarts(const Pipeline& pipeline, const RunOutcome& outcome, report::Report* report) {
+  const std::vector<Pipeline::Death>& deaths = pipeline.deaths();
+  for (std::size_t k = 0; k < deaths.size(); ++k) {
+    const auto until = k + 1 < deaths.size() ? deaths[k + 1].at : outcome.end;
+    report::Restart* restart = report->add_restarts();
+    restart->set_service(deaths[k].service);
+    restart->set_at_s(std::chrono::duration<double>(deaths[k].at - outcome.begin).count());
+    restart->set_ms_without_poses(outcome.outages->MsAfter(deaths[k].at, until));
+  }
 }
 
 void Fill(const LatencyProbe::Summary& summary, report::Latency* out) {
@@ -117,15 +128,16 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
                  const Pipeline& pipeline, const RunOutcome& outcome) {
   report::Report report;
   Describe(job, inputs, &report);
-  for (const auto& child : pipeline.children()) {
+  for (const auto& process : pipeline.processes()) {
     report::Service* service = report.add_services();
-    service->set_name(child->name());
-    service->set_cpu_s(child->cpu_seconds());
-    service->set_peak_memory_mb(child->peak_mb());
+    service->set_name(process->command().id);
+    service->set_cpu_s(process->cpu_seconds());
+    service->set_peak_memory_mb(process->peak_mb());
   }
   FillFromRecorder(recorder, &report);
   report.set_sequence_s(PlayedSeconds(inputs, recorder, outcome));
   FillRates(pipeline, outcome, &report);
+  FillRestarts(pipeline, outcome, &report);
   if (outcome.latency != nullptr) FillLatency(*outcome.latency, &report);
   const Trajectory& online = recorder.online();
   if (!inputs.truth.empty() && !online.empty()) FillErrors(inputs.truth, online, &report);
@@ -141,7 +153,8 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
               report.keyframes(), report.keyframe_rate_hz(), report.sequence_s(), report.wall_s(),
               report.real_time_factor(), report.cpu_ms_per_keyframe());
   if (outcome.latency != nullptr) PrintLatency(report);
-  std::printf("%.0f messages lost, services restarted %d times\n", Lost(report), pipeline.restarts());
+  std::printf("%.0f messages lost, services restarted %zu times\n", Lost(report),
+              pipeline.deaths().size());
   std::printf("results: %s/{trajectory.tum,smoothed.tum,report.json,trajectory.png}\n", job.out.c_str());
   std::fflush(stdout);
   if (report.keyframes() == 0 || report.final_mode() != "TRACKING") {

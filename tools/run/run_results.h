@@ -3,6 +3,7 @@
 #include <string>
 
 #include "tools/run/latency.h"
+#include "tools/run/outages.h"
 #include "tools/run/pipeline.h"
 #include "tools/run/recorder.h"
 #include "tools/run/run.h"
@@ -15,6 +16,8 @@ struct RunOutcome {
   std::string ended;  // "finished" or "interrupted"
   double wall_s = 0;
   const LatencyProbe* latency = nullptr;  // real time only
+  std::chrono::steady_clock::time_point begin, end;
+  const Outages* outages = nullptr;
 };
 
 /// Writes trajectory.tum, smoothed.tum, report.json and trajectory.png into job.out and says in a few lines

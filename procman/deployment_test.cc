@@ -1,0 +1,144 @@
+#include "procman/deployment.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+namespace evit {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+constexpr char kBoth[] = R"(
+# a comment
+cmd "a" { exec = "prog -x \"1 2\""; deputy = "here"; }
+group "g" {
+  cmd "b" {
+    exec = "other";   # bot-procman's spelling
+    host = "there";
+    auto_respawn = "true";
+    stop_signal = 15;
+    stop_time_allowed = 20;
+  }
+  group "inner" { cmd "c" { exec = "c"; host = "here"; } }
+}
+script "go" {
+  start cmd "a" wait "stopped";
+  wait ms 500;
+  start group "g" wait "running";
+  run_script "end";
+}
+script "end" {
+  stop group "g/inner";
+  restart cmd "b";
+  wait cmd "a" status "stopped";
+}
+)";
+
+Deployment Parse(const std::string& text) { return ParseDeployment(text, "f.procman"); }
+
+TEST(DeploymentTest, ReadsBothDialects) {
+  const Deployment d = Parse(kBoth);
+  ASSERT_EQ(d.commands.size(), 3U);
+  EXPECT_EQ(d.Find("a")->exec, "prog -x \"1 2\"");
+  EXPECT_EQ(d.Find("a")->deputy, "here");
+  EXPECT_FALSE(d.Find("a")->auto_respawn);
+  EXPECT_EQ(d.Find("a")->stop_signal, 2);
+  EXPECT_EQ(d.Find("a")->stop_time_allowed, 7);
+  const ProcmanCommand& b = *d.Find("b");
+  EXPECT_EQ(b.deputy, "there");
+  EXPECT_EQ(b.group, "g");
+  EXPECT_TRUE(b.auto_respawn);
+  EXPECT_EQ(b.stop_signal, 15);
+  EXPECT_EQ(b.stop_time_allowed, 20);
+  EXPECT_EQ(d.Find("c")->group, "g/inner");
+  EXPECT_EQ(d.Find("d"), nullptr);
+}
+
+TEST(DeploymentTest, ReadsScripts) {
+  const Deployment d = Parse(kBoth);
+  const ProcmanScript& go = *d.FindScript("go");
+  ASSERT_EQ(go.steps.size(), 4U);
+  EXPECT_EQ(go.steps[0].kind, ScriptStep::Kind::kStart);
+  EXPECT_EQ(go.steps[0].wait, "stopped");
+  EXPECT_EQ(go.steps[1].wait_ms, 500);
+  EXPECT_TRUE(go.steps[2].whole_group);
+  EXPECT_THAT(d.Targets(go.steps[2]), ElementsAre("b", "c"));
+  EXPECT_EQ(go.steps[3].target, "end");
+  const ProcmanScript& end = *d.FindScript("end");
+  EXPECT_THAT(d.Targets(end.steps[0]), ElementsAre("c"));
+  EXPECT_EQ(end.steps[1].kind, ScriptStep::Kind::kRestart);
+  EXPECT_EQ(end.steps[2].kind, ScriptStep::Kind::kWaitStatus);
+}
+
+TEST(DeploymentTest, WritesWhatItReads) {
+  const Deployment d = Parse(kBoth);
+  const std::string ours = WriteDeployment(d, ProcmanDialect::kProcman);
+  const std::string bot = WriteDeployment(d, ProcmanDialect::kBotProcman);
+  EXPECT_THAT(ours, AllOf(HasSubstr("deputy = \"here\""), Not(HasSubstr("host"))));
+  EXPECT_THAT(bot, AllOf(HasSubstr("host = \"here\""), Not(HasSubstr("deputy"))));
+  EXPECT_EQ(WriteDeployment(Parse(bot), ProcmanDialect::kProcman), ours);
+  EXPECT_EQ(WriteDeployment(Parse(ours), ProcmanDialect::kBotProcman), bot);
+}
+
+struct Bad {
+  const char* text;
+  const char* says;
+};
+
+TEST(DeploymentTest, ErrorsNameFileLineAndRemedy) {
+  const Bad cases[] = {
+      {"cmd \"a\" {\n  exec = \"x\";\n}", "f.procman:1: command \"a\" has no deputy"},
+      {"cmd \"a\" { deputy = \"x\"; }", "has no exec"},
+      {"\ncmd a { }", "f.procman:2: the command's id in quotes is expected, not a"},
+      {"cmd \"a\" { exec = \"x\"; host = \"h\" }", "';' is expected, not }"},
+      {"cmd \"a\" { exe = \"x\"; }", "unknown attribute \"exe\"; known: exec"},
+      {"cmd \"a\" { exec = \"x", "not closed"},
+      {"cmd \"a\" { exec = \"x\"; host = \"h\"; stop_signal = 99; }", "1..64 is expected, not 99"},
+      {"cmd \"a\" { exec = \"x\"; host = \"h\"; auto_respawn = \"yes\"; }", "\"true\" or \"false\""},
+      {"cmd \"a\" { exec=\"x\"; host=\"h\"; } cmd \"a\" { exec=\"x\"; host=\"h\"; }", "already"},
+      {"group \"a/b\" { }", "has no /"},
+      {"group \"a\" {", "cmd, group or script is expected, not the end of the file"},
+      {"script \"s\" { start cmd \"none\"; }", "command \"none\", which is not there"},
+      {"script \"s\" { stop group \"none\"; }", "group \"none\", which is not there"},
+      {"script \"s\" { run_script \"t\"; } script \"t\" { run_script \"s\"; }", "runs itself"},
+      {"script \"s\" { wait ms 99999999999; }", "is expected, not 99999999999"},
+      {"script \"s\" { jump; }", "is expected, not jump"},
+      {"@", "unexpected character '@'"},
+  };
+  for (const Bad& bad : cases) {
+    EXPECT_THAT([&] { Parse(bad.text); }, ThrowsMessage<std::runtime_error>(HasSubstr(bad.says))) << bad.text;
+  }
+  EXPECT_THAT([] { LoadDeployment("/none.procman"); }, ThrowsMessage<std::runtime_error>(HasSubstr("/none.procman")));
+}
+
+TEST(DeploymentTest, DeepNestingIsRefusedNotFatal) {
+  std::string text;
+  for (int k = 0; k < 100'000; ++k) text += "group \"g\" {";
+  EXPECT_THAT([&] { Parse(text); }, ThrowsMessage<std::runtime_error>(HasSubstr("too deep")));
+}
+
+// The .pmd is generated: EVIT_UPDATE=1 build/release/test/procman_test writes it anew.
+TEST(DeploymentTest, TheShippedFilesAreInStep) {
+  const std::string folder = EVIT_SOURCE_DIR "/procman/";
+  const Deployment ours = LoadDeployment(folder + "evit.procman");
+  const std::string expected = "# Generated from evit.procman, see deployment_test.cc: change that file.\n\n" +
+                               WriteDeployment(ours, ProcmanDialect::kBotProcman);
+  if (std::getenv("EVIT_UPDATE") != nullptr) std::ofstream(folder + "evit.pmd") << expected;
+  std::ifstream file(folder + "evit.pmd");
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  EXPECT_EQ(text, expected) << "run EVIT_UPDATE=1 build/release/test/procman_test";
+  for (const char* service : {"map_server", "window_optimizer", "frame_builder", "log_replay"}) {
+    ASSERT_NE(ours.Find(service), nullptr) << service;
+    EXPECT_TRUE(ours.Find(service)->auto_respawn);
+  }
+}
+
+}  // namespace
+}  // namespace evit

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+#include "procman/command_line.h"
+#include "procman/deployment.h"
+
+namespace evit {
+
+/// One command as a process: started, asked to stop, killed where it does not, and started again with a growing
+/// delay where it dies by itself. It never outlives this process: the kernel kills it then, whatever happens.
+class ManagedProcess {
+ public:
+  using Clock = std::chrono::steady_clock;
+  /// What it said on stdout or stderr, or what there is to say of it.
+  using Sink = std::function<void(const std::string& id, const std::string& text)>;
+
+  struct Places {
+    std::string programs;  // folder searched before PATH; empty: none
+    std::string logs;      // folder for ID.log, appended to; empty: none
+  };
+  enum class State {
+    kStopped,
+    kRunning,
+    kStopping,  // asked to end
+    kWaiting,   // died; is started again after the delay
+  };
+
+  ManagedProcess(ProcmanCommand command, Places places, Sink sink);
+  ~ManagedProcess();
+  ManagedProcess(const ManagedProcess&) = delete;
+  ManagedProcess& operator=(const ManagedProcess&) = delete;
+
+  /// Starts a new run unless one runs. Throws std::runtime_error where that is impossible: no such program, a
+  /// variable that is not set, no process left.
+  void Start();
+  /// Asks it to stop; Tick() kills it after stop_time_allowed.
+  void Stop();
+  /// Stop, then Start as soon as it has ended.
+  void Restart();
+
+  /// Call often: reads its output, notices its end, kills and starts again what is due.
+  void Tick();
+
+  const ProcmanCommand& command() const { return command_; }
+  State state() const { return state_; }
+  bool running() const { return pid_ > 0; }
+  pid_t pid() const { return pid_; }  // 0: not running
+  int runs() const { return runs_; }  // started so far
+  /// The last run ended by itself, and there has been none since.
+  bool died() const { return died_; }
+  /// Lives in a row that ended by themselves within a second.
+  int early_deaths() const { return early_deaths_; }
+  /// How the last run ended: "exit code 1" or "signal 11 (Segmentation fault)"; as a number like a shell's.
+  std::string end() const;
+  int exit_code() const;
+  bool ended_well() const { return runs_ > 0 && pid_ == 0 && status_ == 0; }
+  /// CPU seconds and peak memory (MB) of all ended runs.
+  double cpu_seconds() const { return cpu_seconds_; }
+  double peak_mb() const { return peak_mb_; }
+  /// The last lines it said.
+  std::string LastWords(int lines = 3) const;
+
+ private:
+  void Launch();
+  pid_t Fork(const std::string& program, const CommandLine& line, int output);
+  void ReadOutput();
+  void Reap();
+  void Signal(int signal) const;
+  void Say(const std::string& text);
+
+  ProcmanCommand command_;
+  Places places_;
+  Sink sink_;
+  State state_ = State::kStopped;
+  pid_t pid_ = 0;
+  int output_ = -1;   // read end of its stdout and stderr
+  int log_ = -1;
+  int runs_ = 0, early_deaths_ = 0, status_ = 0;
+  bool start_again_ = false;  // Restart
+  bool died_ = false;         // the last run ended by itself
+  Clock::time_point started_, kill_at_, start_at_;
+  std::chrono::milliseconds delay_{0};
+  double cpu_seconds_ = 0, peak_mb_ = 0;
+  std::string last_words_;  // the end of what it said
+};
+
+}  // namespace evit
