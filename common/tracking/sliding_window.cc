@@ -94,14 +94,17 @@ SlidingWindow::Summary SlidingWindow::Solve() {
   return result;
 }
 
-Eigen::Matrix<double, 6, 6> SlidingWindow::NewestCovariance() const {
+Matrix15d SlidingWindow::NewestInformation() const {
   StatePrior prior = prior_;
   if (config_.first_node() == config::Window::FIXED) prior.information = 1e12 * Matrix15d::Identity();
   prior.mean = nodes_.front().state;  // only the information matters here
   for (std::size_t n = 0; n + 1 < nodes_.size(); ++n) prior = Eliminate(prior, nodes_[n].alignment, n);
-  const WindowNode& newest = nodes_.back();
   Matrix15d information = prior.information;
-  information.topLeftCorner<6, 6>() += newest.alignment.hessian;
+  information.topLeftCorner<6, 6>() += nodes_.back().alignment.hessian;
+  return 0.5 * (information + information.transpose());
+}
+
+Eigen::Matrix<double, 6, 6> PoseCovariance(const Matrix15d& information) {
   const Matrix15d ridge = 1e-9 * Matrix15d(information.diagonal().cwiseMax(1e-9).asDiagonal());
   const Matrix15d covariance = (information + ridge).ldlt().solve(Matrix15d::Identity());
   return 0.5 * (covariance.topLeftCorner<6, 6>() + covariance.topLeftCorner<6, 6>().transpose());

@@ -45,8 +45,8 @@ class SlidingWindow {
 
   const std::deque<WindowNode>& nodes() const { return nodes_; }
 
-  /// 6x6 covariance of the newest pose (dp [m], map frame; dtheta [rad], body frame).
-  Eigen::Matrix<double, 6, 6> NewestCovariance() const;
+  /// All that is known of the newest state: inverse covariance over its tangent.
+  Matrix15d NewestInformation() const;
 
  private:
   ImuTerm Term(const WindowNode& node) const;
@@ -61,5 +61,8 @@ class SlidingWindow {
   StatePrior prior_;
   double time_budget_ = 0;  // s
 };
+
+/// 6x6 covariance of the pose (dp [m], map frame; dtheta [rad], body frame) of a state's information.
+Eigen::Matrix<double, 6, 6> PoseCovariance(const Matrix15d& information);
 
 }  // namespace evit

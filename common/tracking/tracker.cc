@@ -56,6 +56,21 @@ void Tracker::StartFrom(const BodyState& state) {
   reason_ = "going on from a checkpoint";
 }
 
+void Tracker::Resume(Utime t, const BodyState& state, const Matrix15d& information) {
+  StartFrom(state);
+  WindowNode node;
+  node.t = state_time_ = t;
+  node.state = state;
+  // What its surface said is in the information already.
+  const cv::Mat nothing(rig_.camera.height, rig_.camera.width, CV_8UC1, cv::Scalar(255));
+  node.field = std::make_shared<SurfaceField>(nothing, 1);
+  StatePrior prior;
+  prior.mean = state;
+  prior.information = information;
+  window_.Reset({std::move(node)}, prior);
+  SetMode(TrackerMode::kTracking, "resumed from a checkpoint");
+}
+
 void Tracker::SetMode(TrackerMode mode, std::string reason) {
   mode_ = mode;
   reason_ = std::move(reason);
@@ -223,7 +238,8 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
     return;
   }
   for (const WindowNode& n : window_.nodes()) out->nodes.push_back({n.t, n.seq, n.state});
-  out->covariance = window_.NewestCovariance();
+  out->information = window_.NewestInformation();
+  out->covariance = PoseCovariance(out->information);
   Finish(newest.points, out);
 }
 

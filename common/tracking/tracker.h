@@ -39,6 +39,7 @@ struct TrackerOutput {
   bool has_pose = false;            // nodes.back() is this keyframe
   std::vector<NodeEstimate> nodes;  // the window, oldest first
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  Matrix15d information = Matrix15d::Zero();  // on the newest state, while tracking
   AlignmentQuality quality;
   int iterations = 0;
   double image_speed = 0;  // pixels/s, 0 where unknown
@@ -53,6 +54,10 @@ class Tracker {
 
   /// Looks for the map at this state instead, before the first keyframe: velocity and biases are trusted.
   void StartFrom(const BodyState& state);
+
+  /// Goes on tracking where another tracker was after its keyframe of time `t`, as if it were that one:
+  /// `information` is TrackerOutput's. The next keyframe must follow that one.
+  void Resume(Utime t, const BodyState& state, const Matrix15d& information);
 
   /// The view whose points the next keyframe needs.
   VisibilityQuery NextQuery() const;

@@ -10,7 +10,7 @@
 namespace evit {
 namespace {
 
-constexpr std::size_t kRecent = 32;                  // keyframes
+constexpr std::size_t kRecent = 32;                  // keyframes: half a second at the least
 constexpr auto kPatience = std::chrono::seconds(2);  // before the missing answer is complained of
 
 }  // namespace
@@ -95,7 +95,9 @@ void FrameBuilder::ReportState() {
     if (status_.state() == "drained") return;
     ReportCounters();
     status_.SetState("drained", "the streams have ended; last keyframe " + std::to_string(last_sent_));
-  } else if (inbox_.epoch() != -1 && status_.state() != "running") {
+  } else if (inbox_.epoch() != -1 && last_sent_ < 0) {
+    status_.SetState("running", "filling the surface with events");
+  } else if (inbox_.epoch() != -1) {
     status_.SetState("running", "making keyframes");
   }
 }
@@ -128,7 +130,9 @@ void FrameBuilder::OnMode(const std::uint8_t* data, std::size_t size) {
     modes_.CountInvalid();
     return;
   }
-  if (modes_.Accept(message.epoch, message.seq) == SequenceCounter::Verdict::kOld) return;
+  const bool heard_before = modes_.epoch() != -1;
+  const SequenceCounter::Verdict verdict = modes_.Accept(message.epoch, message.seq);
+  if (verdict == SequenceCounter::Verdict::kOld) return;
   // Before its first keyframe the tracker speaks of none, after our restart of an earlier run's.
   const bool ours = message.keyframe_epoch == status_.epoch() && message.keyframe_seq >= 0 &&
                     message.keyframe_seq <= last_sent_;
@@ -137,6 +141,12 @@ void FrameBuilder::OnMode(const std::uint8_t* data, std::size_t size) {
     if (settings_.lossless || message.keyframe_seq < 0) return;
     builder_.SetFeedbackFor(-1, ToFeedback(message));
     return;
+  }
+  if (!settings_.lossless && heard_before && verdict == SequenceCounter::Verdict::kNewEpoch) {
+    wanted_.clear();
+    for (const Sent& sent : recent_) {
+      if (sent.seq > message.keyframe_seq) wanted_.push_back(sent.seq);
+    }
   }
   if (message.keyframe_seq > last_answered_) {
     last_answered_ = message.keyframe_seq;
@@ -169,6 +179,18 @@ void FrameBuilder::SendAgain() {
   sent_again_ = Clock::now();
 }
 
+// One at each call: all at once would not fit the receive buffer.
+void FrameBuilder::SendHeld() {
+  if (wanted_.empty()) return;
+  const std::int64_t seq = wanted_.front();
+  wanted_.pop_front();
+  for (const Sent& sent : recent_) {
+    if (sent.seq != seq) continue;
+    bus_->Publish(channels_.keyframe, sent.bytes.data(), sent.bytes.size());
+    ++status_.Counter("KEYFRAME.sent_again");
+  }
+}
+
 void FrameBuilder::ReportCounters() {
   const StreamMerger::Counters& c = builder_.counters();
   status_.Counter("events.outside") = c.events_outside;
@@ -181,6 +203,7 @@ void FrameBuilder::ReportCounters() {
 
 void FrameBuilder::Tick() {
   SendAgain();
+  SendHeld();
   ReportState();
   if (credit_) credit_->Tick();
   ReportCounters();

@@ -166,6 +166,31 @@ TEST_F(FrameBuilderTest, RealTimeNeverWaitsAndCountsLosses) {
   EXPECT_EQ(tracker_.counters["KEYFRAME.sent_again"], 0);
 }
 
+TEST_F(FrameBuilderTest, ARestartedOptimiserGetsTheKeyframesSinceItsLastOne) {
+  Start(false);
+  test::Sender sender(peer_bus_.get(), MakeRecording(300), 77);
+  Replay(&sender, 1);
+  ASSERT_GT(tracker_.keyframes.size(), 12U);
+  EXPECT_EQ(tracker_.counters["KEYFRAME.sent_again"], 0);
+  tracker_mode_t mode{};  // a new epoch that knows all but the last five
+  mode.epoch = 1006;
+  mode.keyframe_epoch = tracker_.keyframes[0].epoch;
+  mode.keyframe_seq = tracker_.keyframes.back().seq - 5;
+  mode.mode = tracker_mode_t::TRACKING;
+  mode.keyframe_stride = 1;
+  tracker_.answer_at_once = false;
+  std::vector<std::int64_t> again;
+  test::Listen<keyframe_t>(peer_bus_.get(), Channels().keyframe,
+                           [&](const keyframe_t& keyframe) { again.push_back(keyframe.seq); });
+  for (int twice = 0; twice < 2; ++twice) {  // it says so until it is heard
+    mode.seq = twice;
+    Publish(peer_bus_.get(), Channels().tracker_mode, mode);
+    for (int k = 0; k < 8; ++k) Settle();
+  }
+  ASSERT_EQ(again.size(), 5U);
+  for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(again[k], mode.keyframe_seq + 1 + static_cast<std::int64_t>(k));
+}
+
 TEST_F(FrameBuilderTest, BadMessagesAreCountedAndChangeNothing) {
   Start(true);
   test::Sender sender(peer_bus_.get(), MakeRecording(300), 77);

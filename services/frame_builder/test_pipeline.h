@@ -135,7 +135,7 @@ class Tracker {
     }
     if (m.seq < static_cast<std::int64_t>(keyframes.size())) {
       ++twice;
-      AnswerTo(keyframes.back());
+      if (answer_at_once) AnswerTo(keyframes.back());
       return;
     }
     if (m.seq > static_cast<std::int64_t>(keyframes.size())) return;  // exactly the next

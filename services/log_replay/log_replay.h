@@ -9,12 +9,13 @@
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
+#include "common/service/mapped_file.h"
 #include "common/service/runner.h"
 #include "common/service/send_window.h"
 #include "common/service/sequence_counter.h"
 #include "common/service/status_reporter.h"
 #include "services/log_replay/pacer.h"
-#include "services/log_replay/position_file.h"
+#include "services/log_replay/position.h"
 #include "services/log_replay/recording.h"
 #include "services/log_replay/stream_sender.h"
 
@@ -77,7 +78,7 @@ class LogReplay : public Service {
   StreamSender sender_;
   SendWindow window_;
   Pacer pacer_;
-  std::optional<PositionFile> position_;
+  std::optional<MappedRecord<ReplayPosition>> position_;
   std::size_t begin_ = 0, end_ = 0;  // of the part that is replayed
   std::size_t next_ = 0;             // next new message
   Phase phase_ = Phase::kWaiting;

@@ -10,7 +10,7 @@
 #include "common/bus/channels.h"
 #include "common/bus/codec.h"
 #include "common/service/status_reporter.h"
-#include "services/log_replay/position_file.h"
+#include "services/log_replay/position.h"
 #include "services/log_replay/recording.h"
 
 namespace evit {

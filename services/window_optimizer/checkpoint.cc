@@ -1,15 +1,26 @@
 #include "services/window_optimizer/checkpoint.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
-#include <iomanip>
-#include <limits>
 
 namespace evit {
 namespace {
 
-constexpr char kHead[] = "evit-checkpoint-1";
+using StateVector = Eigen::Matrix<double, 16, 1>;
+
+StateVector ToVector(const BodyState& state) {
+  StateVector v;
+  v << state.T_world_body.p, state.T_world_body.q.coeffs(), state.velocity, state.bias.gyro, state.bias.accel;
+  return v;
+}
+
+BodyState FromVector(const StateVector& v) {
+  BodyState state;
+  state.T_world_body = {Eigen::Quaterniond(v[6], v[3], v[4], v[5]), v.head<3>()};
+  state.velocity = v.segment<3>(7);
+  state.bias = {v.segment<3>(10), v.segment<3>(13)};
+  return state;
+}
 
 }  // namespace
 
@@ -21,41 +32,33 @@ BodyState Checkpoint::After(Utime dt) const {
   return later;
 }
 
-bool SaveCheckpoint(const std::string& path, const Checkpoint& c) {
-  const std::string part = path + ".part";
-  std::ofstream file(part);
-  file << kHead << ' ' << c.t << std::setprecision(std::numeric_limits<double>::max_digits10);
-  const auto& pose = c.state.T_world_body;
-  for (const Eigen::Vector3d& v : {pose.p, c.state.velocity, c.state.bias.gyro, c.state.bias.accel, c.rate}) {
-    for (int k = 0; k < 3; ++k) file << ' ' << v[k];
-  }
-  for (int k = 0; k < 4; ++k) file << ' ' << pose.q.coeffs()[k];
-  file << " end\n";
-  file.close();
-  if (file && std::rename(part.c_str(), path.c_str()) == 0) return true;
-  std::remove(part.c_str());
-  return false;
+void CheckpointFile::Store(const Checkpoint& c) {
+  Record r{};
+  r.t = c.t;
+  r.keyframe_epoch = c.keyframe_epoch;
+  r.keyframe_seq = c.keyframe_seq;
+  r.image_speed = c.image_speed;
+  Eigen::Map<StateVector>(r.state) = ToVector(c.state);
+  Eigen::Map<Eigen::Vector3d>(r.rate) = c.rate;
+  Eigen::Map<Matrix15d>(r.information) = c.information;
+  file_.Store(r);
 }
 
-std::optional<Checkpoint> LoadCheckpoint(const std::string& path) {
-  std::ifstream file(path);
-  std::string head, end;
+std::optional<Checkpoint> CheckpointFile::Load() const {
+  const std::optional<Record> r = file_.Load();
+  if (!r) return std::nullopt;
   Checkpoint c;
-  file >> head >> c.t;
-  bool finite = true;
-  const auto read = [&](double* value) {
-    file >> *value;
-    finite = finite && std::isfinite(*value);
-  };
-  auto& pose = c.state.T_world_body;
-  for (Eigen::Vector3d* v : {&pose.p, &c.state.velocity, &c.state.bias.gyro, &c.state.bias.accel, &c.rate}) {
-    for (int k = 0; k < 3; ++k) read(&(*v)[k]);
-  }
-  for (int k = 0; k < 4; ++k) read(&pose.q.coeffs()[k]);
-  file >> end;
-  if (!file || head != kHead || end != "end" || !finite || std::abs(pose.q.norm() - 1) > 1e-6)
-    return std::nullopt;
-  return c;
+  c.t = r->t;
+  c.keyframe_epoch = r->keyframe_epoch;
+  c.keyframe_seq = r->keyframe_seq;
+  c.image_speed = r->image_speed;
+  const StateVector state = Eigen::Map<const StateVector>(r->state);
+  c.state = FromVector(state);
+  c.rate = Eigen::Map<const Eigen::Vector3d>(r->rate);
+  c.information = Eigen::Map<const Matrix15d>(r->information);
+  const bool sane = state.allFinite() && c.rate.allFinite() && c.information.allFinite() &&
+                    std::isfinite(c.image_speed) && std::abs(c.state.T_world_body.q.norm() - 1) < 1e-6;
+  return sane ? std::optional<Checkpoint>(c) : std::nullopt;
 }
 
 }  // namespace evit

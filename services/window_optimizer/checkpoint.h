@@ -3,26 +3,40 @@
 #include <optional>
 #include <string>
 
-#include "common/geometry/se3.h"
-#include "common/imu/imu_sample.h"
-#include "common/tracking/state.h"
+#include "common/service/mapped_file.h"
+#include "common/tracking/prior.h"
 
 namespace evit {
 
-/// What a restarted optimiser needs to go on: the state at the newest keyframe.
+/// What a restarted optimiser needs to go on: the newest keyframe and what was known at it.
 struct Checkpoint {
-  Utime t = 0;  // us
+  Utime t = 0;                                         // us: of the keyframe
+  std::int64_t keyframe_epoch = 0, keyframe_seq = -1;  // which one it was
   BodyState state;
+  Matrix15d information = Matrix15d::Zero();       // of that state
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();  // rad/s, body frame
+  double image_speed = 0;                          // pixels/s, see tracker_mode_t
 
   /// The state `dt` us later at constant velocity and rate.
   BodyState After(Utime dt) const;
 };
 
-/// Written whole or not at all (temporary file, then rename). False where it cannot be.
-bool SaveCheckpoint(const std::string& path, const Checkpoint& checkpoint);
+/// Keeps the newest checkpoint in a file.
+class CheckpointFile {
+ public:
+  /// Throws std::runtime_error where the file cannot be written.
+  explicit CheckpointFile(const std::string& path) : file_(path, 1) {}
 
-/// None where there is no such file, or it is not a checkpoint.
-std::optional<Checkpoint> LoadCheckpoint(const std::string& path);
+  void Store(const Checkpoint& checkpoint);
+  /// None where there is none, or what is there makes no sense.
+  std::optional<Checkpoint> Load() const;
+
+ private:
+  struct Record {
+    std::int64_t t, keyframe_epoch, keyframe_seq;
+    double state[16], rate[3], image_speed, information[15 * 15];
+  };
+  MappedRecord<Record> file_;
+};
 
 }  // namespace evit

@@ -35,25 +35,6 @@ void WindowOptimizer::ProcessQueue() {
   }
 }
 
-// At the first keyframe: whether it follows the checkpoint, so that the tracker starts where the body must be
-// now.
-bool WindowOptimizer::Resumed() {
-  constexpr Utime kLongest = 3'000'000;  // us: beyond that the prediction is worth nothing
-  const Checkpoint checkpoint = *std::exchange(checkpoint_, std::nullopt);
-  const Utime dt = queue_.front().message.utime - checkpoint.t;
-  if (dt < 0 || dt > kLongest) {
-    BodyState start;
-    start.T_world_body = settings_.T_map_body;
-    tracker_.StartFrom(start);
-    ++status_.Counter("checkpoint.stale");
-  } else {
-    tracker_.StartFrom(checkpoint.After(dt));
-    ++status_.Counter("checkpoint.used");
-  }
-  AskForPoints(tracker_.NextQuery());
-  return true;
-}
-
 // Once tracking, the high-rate frames that queued up meanwhile tell nothing that the newest does not.
 void WindowOptimizer::DropSuperseded() {
   while (!settings_.lossless && tracker_.mode() == TrackerMode::kTracking && queue_.size() > 1 &&
@@ -65,7 +46,8 @@ void WindowOptimizer::DropSuperseded() {
 
 void WindowOptimizer::StartWork(Waiting next) {
   const bool tracking = tracker_.mode() == TrackerMode::kTracking;
-  if (!settings_.lossless && tracking) Govern(Milliseconds(Clock::now() - next.arrived));
+  const bool late_by_restart = next.message.seq <= caught_up_;
+  if (!settings_.lossless && tracking && !late_by_restart) Govern(Milliseconds(Clock::now() - next.arrived));
   KeyframeInput input = FromMessage(next.message);
   if (tracker_.state_time() != 0 && next.message.previous_utime != tracker_.state_time()) {
     // A keyframe between was lost, or frame_builder started anew: the IMU samples since are our own.
@@ -134,9 +116,9 @@ void WindowOptimizer::Report(const TrackerOutput& output, const keyframe_t& keyf
   if (!settings_.lossless && output.mode == TrackerMode::kTracking) {
     live_ = {state.T_world_body, state.velocity};
     live_bias_ = state.bias;
-    if (!settings_.checkpoint.empty() &&
-        !SaveCheckpoint(settings_.checkpoint, {keyframe.utime, state, tracker_.rate()})) {
-      ++status_.Counter("checkpoint.failed");
+    if (checkpoint_file_) {
+      checkpoint_file_->Store({keyframe.utime, keyframe.epoch, keyframe.seq, state, output.information,
+                               tracker_.rate(), output.image_speed});
     }
     live_time_ = keyframe.utime;
   } else {

@@ -40,8 +40,13 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
   if (!settings.lossless) tracker_.set_solve_budget(kSolveBudget);
   status_.SetState("waiting", "waiting for map_server and for keyframes");
   if (!settings.lossless && !settings.checkpoint.empty()) {
-    checkpoint_ = LoadCheckpoint(settings.checkpoint);
-    if (checkpoint_) tracker_.StartFrom(checkpoint_->state);
+    checkpoint_file_.emplace(settings.checkpoint);
+    checkpoint_ = checkpoint_file_->Load();
+    if (checkpoint_) {
+      tracker_.StartFrom(checkpoint_->state);
+      catch_up_.emplace(checkpoint_->keyframe_epoch, checkpoint_->keyframe_seq);
+      AnnounceCheckpoint();
+    }
   }
   AskForPoints(tracker_.NextQuery());
 }
@@ -94,6 +99,11 @@ void WindowOptimizer::OnKeyframe(const std::uint8_t* data, std::size_t size) {
                          "the same --rig");
     return;
   }
+  if (catch_up_) {
+    catch_up_->Add(std::move(message), Clock::now());
+    CatchUp();
+    return;
+  }
   const auto verdict = keyframes_.Look(message.epoch, message.seq);
   if (settings_.lossless && !InOrder(verdict, message)) {
     ++status_.Counter("KEYFRAME.out_of_order");  // frame_builder sends the missing one again
@@ -123,8 +133,10 @@ bool WindowOptimizer::InOrder(SequenceCounter::Verdict verdict, const keyframe_t
 
 void WindowOptimizer::Queue(keyframe_t message) {
   // High-rate frames may wait: they come in a burst at the start, and bootstrapping needs each.
-  const bool high_rate = !queue_.empty() && queue_.front().message.high_rate != 0;
-  const std::size_t longest = high_rate ? kMaxBootstrapQueue : kMaxQueue;
+  // So may those since the last checkpoint.
+  const bool patient = !queue_.empty() && (queue_.front().message.high_rate != 0 ||
+                                           queue_.front().message.seq <= caught_up_);
+  const std::size_t longest = patient ? kMaxBootstrapQueue : kMaxQueue;
   while (!settings_.lossless && queue_.size() >= longest) {
     queue_.pop_front();
     ++status_.Counter("KEYFRAME.dropped");
@@ -162,6 +174,7 @@ void WindowOptimizer::PublishPoses(const std::vector<ImuSample>& samples, NavSta
 
 void WindowOptimizer::Tick() {
   if (!answered_ && Clock::now() - asked_ > kAskAgain) AskAgain();
+  if (catch_up_) CatchUp();
   ProcessQueue();
   if (!answered_ && Clock::now() - first_asked_ > std::chrono::seconds(2)) {
     status_.SetState("waiting", "map_server does not answer: is it running, on the same URL and prefix?");

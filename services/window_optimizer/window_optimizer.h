@@ -19,6 +19,7 @@
 #include "evit/map_points_t.hpp"
 #include "evit/map_query_t.hpp"
 #include "evit/tracker_mode_t.hpp"
+#include "services/window_optimizer/catch_up.h"
 #include "services/window_optimizer/checkpoint.h"
 #include "services/window_optimizer/imu_history.h"
 #include "services/window_optimizer/load_governor.h"
@@ -31,7 +32,8 @@ namespace evit {
 /// The points for the next keyframe are asked for before one is processed, so that map_server works
 /// meanwhile. Lossless: a keyframe waits for that answer, and keyframes are taken in exact order. Real time:
 /// nothing waits longer than kAnswerPatience, work is cut down while keyframes wait (LoadGovernor), and the
-/// IMU samples of a keyframe that was dropped all the same are bridged from the service's own.
+/// IMU samples of a keyframe that was dropped all the same are bridged from the service's own. Restarted with a
+/// checkpoint it asks frame_builder for the keyframes since and goes on as if nothing had been (restart.cc).
 class WindowOptimizer : public Service {
  public:
   struct Settings {
@@ -64,6 +66,8 @@ class WindowOptimizer : public Service {
   };
   void ProcessQueue();
   bool Resumed();
+  void CatchUp();
+  void AnnounceCheckpoint();
   void DropSuperseded();
   void StartWork(Waiting next);
   /// False where it is not done and `wait` is not set.
@@ -98,7 +102,11 @@ class WindowOptimizer : public Service {
 
   std::pair<std::int64_t, std::int64_t> refused_{-1, -1};  // epoch and seq of the last keyframe out of order
   tracker_mode_t last_mode_{};
-  std::optional<Checkpoint> checkpoint_;  // to go on from, until the first keyframe
+  std::optional<CheckpointFile> checkpoint_file_;
+  std::optional<Checkpoint> checkpoint_;     // to go on from, until the first keyframe
+  std::optional<KeyframeCatchUp> catch_up_;  // until the keyframes since then are here
+  Clock::time_point announced_;              // the checkpoint
+  std::int64_t caught_up_ = -1;              // number of the newest of those keyframes
   NavState live_;                         // where IMU-rate poses start from, real-time mode
   ImuBias live_bias_;
   Utime live_time_ = 0;

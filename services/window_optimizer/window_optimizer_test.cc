@@ -3,8 +3,10 @@
 #include "services/window_optimizer/window_optimizer.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
 #include <map>
 #include <thread>
 
@@ -35,7 +37,7 @@ class WindowOptimizerTest : public ::testing::Test {
                       ++queries_;
                       if (map_server_up_) Answer(query);
                     });
-    WindowOptimizer::Settings settings;
+    WindowOptimizer::Settings& settings = settings_;
     settings.rig.camera = synthetic::VgaCamera();
     settings.rig.T_body_camera = synthetic::BodyCamera();
     settings.rig.imu_noise = {7e-4, 1.3e-3, 7e-6, 6e-5};
@@ -44,6 +46,21 @@ class WindowOptimizerTest : public ::testing::Test {
     settings.lossless = lossless;
     service_ = std::make_unique<WindowOptimizer>(service_bus_.get(), channels_, settings);
     Pump();
+  }
+
+  // As if killed and started again: nobody called Stop().
+  void StartAgain() {
+    service_bus_ = OpenMemoryBus(hub_);
+    service_ = std::make_unique<WindowOptimizer>(service_bus_.get(), channels_, settings_);
+    Pump();
+  }
+
+  void WithCheckpoint() {
+    settings_.checkpoint = ::testing::TempDir() + "evit_optimizer_" + std::to_string(::getpid());
+    std::remove(settings_.checkpoint.c_str());
+  }
+  void TearDown() override {
+    if (!settings_.checkpoint.empty()) std::remove(settings_.checkpoint.c_str());
   }
 
   template <typename Message>
@@ -153,6 +170,7 @@ class WindowOptimizerTest : public ::testing::Test {
     return 0;
   }
 
+  WindowOptimizer::Settings settings_;
   Motion motion_;
   std::vector<Eigen::Vector3f> room_ = synthetic::RoomPoints();
   AlignmentSettings alignment_ = synthetic::Alignment();
@@ -235,6 +253,69 @@ TEST_F(WindowOptimizerTest, LostKeyframeIsBridgedFromItsOwnImu) {
   EXPECT_EQ(modes_.back().mode, tracker_mode_t::TRACKING) << modes_.back().reason;
   EXPECT_EQ(Counter("KEYFRAME.bridged"), 4);
   EXPECT_EQ(Counter("KEYFRAME.lost"), 4);
+}
+
+TEST_F(WindowOptimizerTest, RestartedItGoesOnWithoutMissingAKeyframe) {
+  WithCheckpoint();
+  Start(false);
+  const Utime begin = UntilTracking();
+  SendImu(begin - 50'000, begin + 2'000'000);
+  for (int k = 0; k < 10; ++k) {
+    Send(channels_.keyframe, Keyframe(last_ + 25'000));
+    Pump();
+  }
+  const std::int64_t last = modes_.back().keyframe_seq;
+  service_.reset();
+  std::vector<keyframe_t> missed;
+  for (int k = 0; k < 6; ++k) missed.push_back(Keyframe(last_ + 25'000));  // nobody hears them
+  modes_.clear();
+  windows_.clear();
+  StartAgain();
+  ASSERT_FALSE(modes_.empty());  // it says where it was
+  EXPECT_EQ(modes_[0].keyframe_seq, last);
+  EXPECT_EQ(modes_[0].keyframe_epoch, 77);
+  EXPECT_EQ(modes_[0].mode, tracker_mode_t::TRACKING);
+  modes_.clear();
+  Send(channels_.keyframe, Keyframe(last_ + 25'000));  // live, before those that are sent again
+  Pump();
+  EXPECT_TRUE(windows_.empty());
+  for (const keyframe_t& keyframe : missed) Send(channels_.keyframe, keyframe);
+  Pump();
+  ASSERT_EQ(windows_.size(), 7U);
+  for (std::size_t k = 0; k < windows_.size(); ++k) {
+    EXPECT_EQ(windows_[k].keyframe_seq, last + 1 + static_cast<std::int64_t>(k));
+    EXPECT_EQ(windows_[k].mode, tracker_mode_t::TRACKING);
+    const node_state_t& newest = windows_[k].node.back();
+    const SE3 truth = motion_.State(ToSeconds(newest.utime)).T_world_body;
+    EXPECT_LT((Eigen::Vector3d(newest.position) - truth.p).norm(), 0.006);
+  }
+  EXPECT_EQ(Counter("checkpoint.resumed"), 1);
+  EXPECT_EQ(Counter("overload.level"), 0);
+}
+
+TEST_F(WindowOptimizerTest, RestartedWithoutThoseKeyframesItLooksWhereTheBodyMustBe) {
+  WithCheckpoint();
+  Start(false);
+  const Utime begin = UntilTracking();
+  SendImu(begin - 50'000, begin + 1'000'000);
+  for (int k = 0; k < 10; ++k) {
+    Send(channels_.keyframe, Keyframe(last_ + 25'000));
+    Pump();
+  }
+  service_.reset();
+  keyframe_seq_ = 0;  // frame_builder was restarted too: another epoch
+  StartAgain();
+  modes_.clear();
+  for (int k = 0; k < 40 && (modes_.empty() || modes_.back().mode != tracker_mode_t::TRACKING); ++k) {
+    keyframe_t keyframe = Keyframe(last_ + 10'000);
+    keyframe.epoch = 78;
+    keyframe.high_rate = 1;
+    Send(channels_.keyframe, keyframe);
+    Pump();
+  }
+  ASSERT_FALSE(modes_.empty());
+  EXPECT_EQ(modes_.back().mode, tracker_mode_t::TRACKING) << modes_.back().reason;
+  EXPECT_EQ(Counter("checkpoint.used"), 1);
 }
 
 TEST_F(WindowOptimizerTest, OverloadTakesPointsThenKeyframesAndGivesThemBack) {

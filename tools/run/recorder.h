@@ -35,7 +35,7 @@ class Recorder {
 
   const std::vector<ModeChange>& mode_changes() const { return mode_changes_; }
   const tracker_mode_t& mode() const { return mode_; }
-  std::int64_t n_keyframes() const { return mode_.keyframe_seq + 1; }
+  std::int64_t n_keyframes() const { return earlier_keyframes_ + mode_.keyframe_seq + 1; }
   const std::map<std::string, service_status_t>& statuses() const { return statuses_; }
   double progress() const;
 
@@ -59,6 +59,7 @@ class Recorder {
   Trajectory left_;
   std::vector<ModeChange> mode_changes_;
   tracker_mode_t mode_{};
+  std::int64_t earlier_keyframes_ = 0;  // of earlier runs of frame_builder
   std::map<std::string, service_status_t> statuses_;
   double solve_ms_ = 0;
   bool active_ = false;

@@ -62,6 +62,7 @@ void FillRestarts(const Pipeline& pipeline, const RunOutcome& outcome, report::R
     restart->set_service(deaths[k].service);
     restart->set_at_s(std::chrono::duration<double>(deaths[k].at - outcome.begin).count());
     restart->set_ms_without_poses(outcome.outages->MsAfter(deaths[k].at, until));
+    restart->set_keyframes_lost(static_cast<double>(outcome.outages->KeyframesLostAfter(deaths[k].at, until)));
   }
 }
 
