@@ -56,15 +56,11 @@ class WholeSystemTest : public ::testing::Test {
   std::string Path(const std::string& name) const { return (folder_ / name).string(); }
   // Kills a service twice in a run of 3 s.
   void KillInRealTime(const std::string& service) {
-    // A rig file of its own tells this test's processes from others'.
-    fs::copy_file(kLogs + "rig.textproto", Path("rig_of_this_test.textproto"));
-    std::string command = RunCommand("out", "--realtime");
-    command.replace(command.find(kLogs + "rig.textproto"), (kLogs + "rig.textproto").size(),
-                    Path("rig_of_this_test.textproto"));
+    const std::string command = RunCommand("out", "--realtime");
     std::thread killer([&] {
       for (int k = 0; k < 2; ++k) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1300));
-        Shell("pkill -9 -f '^[^ ]*/" + service + " --rig " + Path("rig_of_this_test.textproto") + "'");
+        Kill(service);
       }
     });
     const Result result = Shell(command);
@@ -85,9 +81,15 @@ class WholeSystemTest : public ::testing::Test {
     const auto at = report.find(key);
     return at == std::string::npos ? -1 : std::stoi(report.substr(at + key.size()));
   }
+  // This test's, not those of tests that run beside it: its files lie in a folder of its own.
+  void Kill(const std::string& service) const { Shell("pkill -9 -f '^" + service + " .*" + folder_.string() + "/'"); }
   std::string RunCommand(const std::string& out, const std::string& more = "") const {
-    return kEvit + " run --log " + kLogs + "sample.lcmlog --map " + kLogs + "sample_map.pcd --rig " + kLogs +
-           "rig.textproto --initial-from " + kLogs + "sample_truth.tum --out " + Path(out) + " " + more;
+    for (const char* file : {"sample_map.pcd", "rig.textproto"}) {
+      fs::copy_file(kLogs + file, Path(file), fs::copy_options::skip_existing);
+    }
+    // What others find a run by is the test's own too.
+    return "XDG_RUNTIME_DIR=" + folder_.string() + " " + kEvit + " run --log " + kLogs + "sample.lcmlog --map " +
+           Path("sample_map.pcd") + " --rig " + Path("rig.textproto") + " --initial-from " + kLogs + "sample_truth.tum --out " + Path(out) + " " + more;
   }
   static void ExpectGood(const std::string& trajectory, double max_position, double max_degrees) {
     const TrajectoryError error =
@@ -127,24 +129,43 @@ TEST_F(WholeSystemTest, TracksInRealTime) {
 }
 
 TEST_F(WholeSystemTest, SurvivesItsMapServer) {
-  // Killed again and again while the run goes on: it is started anew, and the result is the same. A map file
-  // of its own tells this test's map_server from those of tests that run beside it.
-  fs::copy_file(kLogs + "sample_map.pcd", Path("map_of_this_test.pcd"));
-  std::string command = RunCommand("killed");
-  command.replace(command.find(kLogs + "sample_map.pcd"), (kLogs + "sample_map.pcd").size(),
-                  Path("map_of_this_test.pcd"));
+  // Killed again and again while the run goes on: it is started anew, and the result is the same.
   std::thread killer([this] {
     for (int k = 0; k < 3; ++k) {
       std::this_thread::sleep_for(std::chrono::milliseconds(250));
-      Shell("pkill -9 -f '^[^ ]*/map_server --map " + Path("map_of_this_test.pcd") + "'");
+      Kill("map_server");
     }
   });
-  const Result result = Shell(command);
+  const Result result = Shell(RunCommand("killed"));
   killer.join();
   ASSERT_EQ(result.code, 0) << result.output;
   EXPECT_GE(Restarts("killed"), 1) << result.output;
   ExpectGood(Path("killed/trajectory.tum"), 0.015, 0.6);
 }
+
+TEST_F(WholeSystemTest, ARunCanBeLookedAtAndCommanded) {
+  std::thread run([&] { EXPECT_EQ(Shell(RunCommand("out", "--realtime")).code, 0); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  const std::string evit = "XDG_RUNTIME_DIR=" + folder_.string() + " " + kEvit + " ";
+  const Result ps = Shell(evit + "ps");
+  EXPECT_EQ(ps.code, 0);
+  for (const char* service : {"map_server", "window_optimizer", "frame_builder", "log_replay"}) {
+    EXPECT_THAT(ps.output, testing::ContainsRegex(std::string(service) + " +running +[0-9]+"));
+  }
+  const Result restart = Shell(evit + "restart window_optimizer");
+  EXPECT_EQ(restart.code, 0) << restart.output;
+  const Result logs = Shell(evit + "logs window_optimizer");
+  EXPECT_THAT(logs.output, HasSubstr("tracking"));
+  const Result wrong = Shell(evit + "restart windows");
+  EXPECT_EQ(wrong.code, 1);
+  EXPECT_THAT(wrong.output, HasSubstr("no command \"windows\"; there are: map_server, window_optimizer"));
+  run.join();
+  ExpectGood(Path("out/trajectory.tum"), 0.02, 0.8);
+  EXPECT_EQ(Restarts("out"), 0);  // ordered ones are no deaths
+  EXPECT_THAT(Shell(evit + "ps").output, HasSubstr("neither `evit run` nor `evit up` is running"));
+}
+
+TEST_F(WholeSystemTest, SurvivesItsLogReplayInRealTime) { KillInRealTime("log_replay"); }
 
 TEST_F(WholeSystemTest, SurvivesItsFrameBuilderInRealTime) { KillInRealTime("frame_builder"); }
 

@@ -9,6 +9,7 @@
 
 #include "common/bus/faulty_bus.h"
 #include "common/bus/lcm_bus.h"
+#include "common/service/status_reporter.h"
 
 namespace evit {
 
@@ -68,6 +69,7 @@ std::string ResolveLcmUrl(const std::string& option) {
 }
 
 std::unique_ptr<Bus> OpenServiceBus(const ServiceOptions& options) {
+  StatusReporter::EchoToStderr();
   auto bus = OpenLcmBus(ResolveLcmUrl(options.lcm_url));
   const char* const faults = std::getenv("EVIT_BUS_FAULTS");
   if (faults == nullptr || *faults == '\0') return bus;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "common/bus/codec.h"
@@ -29,7 +30,16 @@ void StatusReporter::SetState(const std::string& state, const std::string& detai
   const bool changed = state != message_.state;
   message_.state = state;
   message_.detail = detail;
+  if (echo_) Echo();
   if (changed) Publish();
+}
+
+// What follows the first colon changes all the time (positions, contrasts) and is left out of the comparison.
+void StatusReporter::Echo() {
+  const std::string head = message_.state + ": " + message_.detail.substr(0, message_.detail.find(':'));
+  if (head == echoed_) return;
+  echoed_ = head;
+  std::fprintf(stderr, "%s: %s: %s\n", message_.service.c_str(), message_.state.c_str(), message_.detail.c_str());
 }
 
 void StatusReporter::SetProgress(double share) {

@@ -21,6 +21,8 @@ class StatusReporter {
   /// `state`: one word, see service_status_t. `detail`: for a person.
   void SetState(const std::string& state, const std::string& detail);
   void SetProgress(double share);  // 0..1
+  /// Every reporter of this process also writes changes of state to stderr (a service's log).
+  static void EchoToStderr() { echo_ = true; }
   /// A counter by name, created at zero; the reference stays valid.
   std::int64_t& Counter(const std::string& name);
   /// One call of a stage took this long; STATUS shows the mean.
@@ -33,6 +35,9 @@ class StatusReporter {
   std::int64_t epoch() const { return message_.epoch; }
 
  private:
+  void Echo();
+
+  static inline bool echo_ = false;
   struct Timing {
     double sum_ms = 0;
     std::int64_t calls = 0;
@@ -43,6 +48,7 @@ class StatusReporter {
   std::map<std::string, std::int64_t> counters_;
   std::map<std::string, Timing> timings_;
   std::chrono::steady_clock::time_point last_sent_;
+  std::string echoed_;
 };
 
 /// An epoch for a new run of a service: different at each start.

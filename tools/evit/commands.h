@@ -12,5 +12,8 @@ void AddImportCommand(CLI::App* app);
 void AddMapCommand(CLI::App* app);
 void AddEvalCommand(CLI::App* app);
 void AddRunCommand(CLI::App* app);
+void AddUpCommand(CLI::App* app);
+/// ps, start, stop, restart, logs.
+void AddProcmanCommands(CLI::App* app);
 
 }  // namespace evit

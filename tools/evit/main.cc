@@ -31,6 +31,8 @@ int Main(int argc, char** argv) {
   evit::AddSimulateCommand(&app);
   evit::AddRunCommand(&app);
   evit::AddEvalCommand(&app);
+  evit::AddUpCommand(&app);
+  evit::AddProcmanCommands(&app);
   try {
     RequireKnownCommand(app, argc, argv);
     app.parse(argc, argv);

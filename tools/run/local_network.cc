@@ -1,6 +1,7 @@
 #include "tools/run/local_network.h"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <linux/rtnetlink.h>
 #include <net/if.h>
 #include <net/route.h>
@@ -121,22 +122,59 @@ bool EnsureLocalMulticast(const std::string& url) {
   return true;
 }
 
-RunFile::RunFile() {
+RunFile::RunFile(const std::string& logs) {
   std::error_code ignored;  // only convenience hangs on this file
   std::filesystem::create_directories(RunFolder(), ignored);
-  // Processes that were killed left theirs.
-  for (const auto& entry : std::filesystem::directory_iterator(RunFolder(), ignored)) {
-    pid_t pid = 0;
-    std::ifstream(entry.path()) >> pid;
-    if (pid > 0 && kill(pid, 0) != 0 && errno == ESRCH) std::filesystem::remove(entry.path(), ignored);
-  }
+  FindRunning();  // clears away what killed processes left
   path_ = (RunFolder() / ("run-" + std::to_string(getpid()))).string();
-  std::ofstream(path_) << getpid() << '\n';
+  std::ofstream(path_) << getpid() << '\n' << std::filesystem::absolute(logs, ignored).string() << '\n';
 }
 
 RunFile::~RunFile() {
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);
+}
+
+std::optional<RunningPipeline> FindRunning() {
+  std::error_code ignored;
+  std::optional<RunningPipeline> newest;
+  std::filesystem::file_time_type newest_time;
+  for (const auto& entry : std::filesystem::directory_iterator(RunFolder(), ignored)) {
+    RunningPipeline found;
+    std::ifstream file(entry.path());
+    file >> found.pid >> std::ws;
+    std::getline(file, found.logs);
+    if (found.pid <= 0) continue;
+    if (kill(found.pid, 0) != 0 && errno == ESRCH) {
+      std::filesystem::remove(entry.path(), ignored);
+      continue;
+    }
+    const auto time = std::filesystem::last_write_time(entry.path(), ignored);
+    if (newest && time < newest_time) continue;
+    newest = found;
+    newest_time = time;
+  }
+  return newest;
+}
+
+void JoinNetworkOf(const RunningPipeline& pipeline) {
+  const std::string folder = "/proc/" + std::to_string(pipeline.pid) + "/ns/";
+  const auto same = [&](const char* name) {
+    std::error_code error;
+    return std::filesystem::read_symlink(folder + name, error) ==
+           std::filesystem::read_symlink(std::string("/proc/self/ns/") + name, error);
+  };
+  for (const char* name : {"user", "net"}) {  // in this order: the first gives the right to do the second
+    if (same(name)) continue;
+    const int fd = open((folder + name).c_str(), O_RDONLY | O_CLOEXEC);
+    const int result = fd < 0 ? -1 : setns(fd, 0);
+    const std::string why = std::strerror(errno);
+    if (fd >= 0) close(fd);
+    if (result != 0) {
+      throw std::runtime_error("cannot join the network of process " + std::to_string(pipeline.pid) + " (" + why +
+                               "): run this as the same user");
+    }
+  }
 }
 
 }  // namespace evit

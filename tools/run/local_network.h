@@ -1,5 +1,8 @@
 #pragma once
 
+#include <sys/types.h>
+
+#include <optional>
 #include <string>
 
 namespace evit {
@@ -11,10 +14,11 @@ namespace evit {
 /// the remedy where the kernel forbids it.
 bool EnsureLocalMulticast(const std::string& url);
 
-/// A file that names this process while it lives, so that scripts/spy can join its namespace.
+/// A file that names this process while it lives, so that others (scripts/spy, evit ps) can join its namespace and
+/// find its logs: its process id, then the folder of its logs.
 class RunFile {
  public:
-  RunFile();
+  explicit RunFile(const std::string& logs);
   ~RunFile();
   RunFile(const RunFile&) = delete;
   RunFile& operator=(const RunFile&) = delete;
@@ -22,5 +26,16 @@ class RunFile {
  private:
   std::string path_;
 };
+
+/// What the newest live RunFile says; nothing where there is none.
+struct RunningPipeline {
+  pid_t pid = 0;
+  std::string logs;
+};
+std::optional<RunningPipeline> FindRunning();
+
+/// Moves this process into the network namespace of a running pipeline. Call before any thread or socket is made.
+/// Throws std::runtime_error where the kernel forbids it.
+void JoinNetworkOf(const RunningPipeline& pipeline);
 
 }  // namespace evit

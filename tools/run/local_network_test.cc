@@ -55,6 +55,32 @@ TEST(LocalNetwork, MulticastWorksAfterwardsAndStaysOnTheHost) {
             0);
 }
 
+TEST(LocalNetwork, OthersCanJoinIt) {
+  int ready[2], end[2];
+  ASSERT_EQ(pipe(ready), 0);
+  ASSERT_EQ(pipe(end), 0);
+  const pid_t owner = fork();
+  if (owner == 0) {
+    EnsureLocalMulticast(kUrl);
+    char c = 'x';
+    if (write(ready[1], &c, 1) != 1) _exit(1);
+    close(end[1]);
+    _exit(read(end[0], &c, 1) == 0 ? 0 : 1);  // lives until the test closes its end
+  }
+  char c = 0;
+  ASSERT_EQ(read(ready[0], &c, 1), 1);
+  EXPECT_EQ(InChild([&] {
+              JoinNetworkOf({owner, ""});
+              std::error_code error;
+              const auto theirs = std::filesystem::read_symlink("/proc/" + std::to_string(owner) + "/ns/net", error);
+              return Namespace() == theirs.string() ? 0 : 1;
+            }),
+            0);
+  close(end[1]);
+  waitpid(owner, nullptr, 0);
+  EXPECT_THROW(JoinNetworkOf({owner, ""}), std::runtime_error);
+}
+
 TEST(LocalNetwork, ChildrenInheritIt) {
   EXPECT_EQ(InChild([] {
               EnsureLocalMulticast(kUrl);
@@ -81,13 +107,18 @@ TEST(LocalNetwork, RunFileNamesThisProcessWhileItLives) {
   std::filesystem::create_directories(left.parent_path());
   std::ofstream(left) << dead;
   {
-    const RunFile run_file;
+    const RunFile run_file("some/logs");
     EXPECT_FALSE(std::filesystem::exists(left));
     std::ifstream in(file);
     int pid = 0;
     in >> pid;
     EXPECT_EQ(pid, getpid());
+    const auto running = FindRunning();
+    ASSERT_TRUE(running.has_value());
+    EXPECT_EQ(running->pid, getpid());
+    EXPECT_EQ(running->logs, std::filesystem::absolute("some/logs"));
   }
+  EXPECT_FALSE(FindRunning());
   EXPECT_FALSE(std::filesystem::exists(file));
   std::filesystem::remove_all(folder);
 }

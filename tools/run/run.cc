@@ -159,7 +159,10 @@ int Run(const RunJob& job) {
   const char* asked = std::getenv("LCM_DEFAULT_URL");
   const bool own_choice = job.lcm_url.empty() && (asked == nullptr || *asked == '\0');
   std::unique_ptr<RunFile> run_file;
-  if (own_choice && EnsureLocalMulticast(url)) run_file = std::make_unique<RunFile>();
+  if (own_choice) {
+    EnsureLocalMulticast(url);
+    run_file = std::make_unique<RunFile>(job.out);
+  }
 
   struct sigaction action = {};
   action.sa_handler = OnSignal;

@@ -1,0 +1,139 @@
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "common/bus/lcm_bus.h"
+#include "common/service/runner.h"
+#include "procman/sheriff.h"
+#include "tools/evit/commands.h"
+#include "tools/run/local_network.h"
+
+namespace evit {
+namespace {
+
+constexpr auto kPatience = std::chrono::seconds(5);
+volatile std::sig_atomic_t g_stop = 0;
+
+// The bus of the pipeline that runs here, or the one that was asked for.
+std::unique_ptr<Bus> OpenBusOfPipeline(const std::string& lcm_url) {
+  const char* environment = std::getenv("LCM_DEFAULT_URL");
+  const bool own_choice = lcm_url.empty() && (environment == nullptr || *environment == '\0');
+  const auto running = FindRunning();
+  if (own_choice && running) JoinNetworkOf(*running);
+  if (own_choice && !running) {
+    throw std::runtime_error("neither `evit run` nor `evit up` is running here; another host's: --lcm-url");
+  }
+  return OpenLcmBus(ResolveLcmUrl(lcm_url));
+}
+
+std::string Condition(const procman_lcm::cmd_status_t& status) {
+  if (status.pid != 0) return "running";
+  if (status.actual_runid == 0) return "not started";
+  return status.exit_code == 0 ? "stopped" : "ended with " + std::to_string(status.exit_code);
+}
+
+void Ps(const std::string& lcm_url) {
+  const auto bus = OpenBusOfPipeline(lcm_url);
+  Sheriff sheriff(bus.get());
+  const auto& deputies = sheriff.Look(kPatience);
+  if (deputies.empty()) {
+    throw std::runtime_error("no deputy answers: is `evit run` or `evit up` running, on the same LCM URL?");
+  }
+  std::printf("%-12s %-20s %-16s %8s %6s %9s\n", "DEPUTY", "COMMAND", "STATE", "PID", "CPU", "MEMORY");
+  for (const auto& [name, info] : deputies) {
+    for (const auto& status : info.cmds) {
+      std::printf("%-12s %-20s %-16s %8d %4.0f %% %6.0f MB\n", name.c_str(), status.cmd.command_id.c_str(),
+                  Condition(status).c_str(), status.pid, 100.0 * static_cast<double>(status.cpu_usage),
+                  static_cast<double>(status.mem_rss_bytes) / (1 << 20));
+    }
+  }
+}
+
+struct LogOptions {
+  std::string command, lcm_url;
+  int lines = 50;
+  bool follow = false;
+};
+
+// The end of its log file, where the pipeline runs on this host.
+bool PrintLogFile(const LogOptions& o) {
+  const auto running = FindRunning();
+  if (!running) return false;
+  std::ifstream file(std::filesystem::path(running->logs) / (o.command + ".log"));
+  if (!file) return false;
+  std::deque<std::string> last;
+  for (std::string line; std::getline(file, line);) {
+    last.push_back(line);
+    if (last.size() > static_cast<std::size_t>(o.lines)) last.pop_front();
+  }
+  for (const std::string& line : last) std::printf("%s\n", line.c_str());
+  std::fflush(stdout);
+  return true;
+}
+
+void Logs(const LogOptions& o) {
+  const bool local = PrintLogFile(o);
+  if (local && !o.follow) return;
+  const auto bus = OpenBusOfPipeline(o.lcm_url);
+  Sheriff sheriff(bus.get());
+  bool known = false;
+  for (const auto& [name, info] : sheriff.Look(kPatience)) {
+    for (const auto& status : info.cmds) known = known || status.cmd.command_id == o.command;
+  }
+  if (!known) throw std::runtime_error("there is no command \"" + o.command + "\"; evit ps lists them");
+  if (!local && !o.follow) {
+    throw std::runtime_error("its log file is on another host: --follow shows what it says from now on");
+  }
+  sheriff.OnOutput([&](const procman_lcm::output_t& message) {
+    if (message.command_id != o.command) return;
+    std::printf("%s", message.text.c_str());
+    std::fflush(stdout);
+  });
+  std::signal(SIGINT, [](int) { g_stop = 1; });
+  while (g_stop == 0) bus->Poll(100);
+}
+
+void AddOrder(CLI::App* app, const char* name, const char* help, Sheriff::Order order) {
+  struct Options {
+    std::string command, lcm_url;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* sub = app->add_subcommand(name, help);
+  sub->add_option("command", o->command, "its id, see evit ps")->required();
+  sub->add_option("--lcm-url", o->lcm_url, "Bus (default: that of the pipeline running here)");
+  sub->callback([o, order] {
+    const auto bus = OpenBusOfPipeline(o->lcm_url);
+    // stop_time_allowed may pass before it has ended.
+    Sheriff(bus.get()).Give(order, o->command, std::chrono::seconds(15));
+  });
+}
+
+}  // namespace
+
+void AddProcmanCommands(CLI::App* app) {
+  auto url = std::make_shared<std::string>();
+  CLI::App* ps = app->add_subcommand("ps", "List the processes of a running pipeline (PM_INFO)");
+  ps->add_option("--lcm-url", *url, "Bus (default: that of the pipeline running here)");
+  ps->callback([url] { Ps(*url); });
+
+  AddOrder(app, "start", "Start a command of a running pipeline (PM_ORDERS)", Sheriff::Order::kStart);
+  AddOrder(app, "stop", "Stop a command of a running pipeline (PM_ORDERS)", Sheriff::Order::kStop);
+  AddOrder(app, "restart", "Restart a command of a running pipeline (PM_ORDERS)", Sheriff::Order::kRestart);
+
+  auto o = std::make_shared<LogOptions>();
+  CLI::App* logs = app->add_subcommand("logs", "Show what a command of a running pipeline says (PM_OUTPUT)");
+  logs->add_option("command", o->command, "its id, see evit ps")->required();
+  logs->add_option("-n,--lines", o->lines, "lines of its log file")->capture_default_str()->check(CLI::NonNegativeNumber);
+  logs->add_flag("-f,--follow", o->follow, "go on with what it says, until Ctrl-C");
+  logs->add_option("--lcm-url", o->lcm_url, "Bus (default: that of the pipeline running here)");
+  logs->callback([o] { Logs(*o); });
+}
+
+}  // namespace evit

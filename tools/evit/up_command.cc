@@ -1,0 +1,124 @@
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "common/bus/lcm_bus.h"
+#include "common/service/runner.h"
+#include "procman/deputy.h"
+#include "procman/script_runner.h"
+#include "tools/evit/commands.h"
+#include "tools/evit/options.h"
+#include "tools/run/local_network.h"
+
+namespace evit {
+namespace {
+
+struct UpOptions {
+  std::string file, script, deputy, logs, lcm_url;
+};
+
+volatile std::sig_atomic_t g_stop = 0;
+void OnSignal(int /*signal*/) { g_stop = 1; }
+
+// The commands of one deputy; where the file knows only one, its.
+std::vector<ProcmanCommand> CommandsOf(const Deployment& deployment, const UpOptions& o, std::string* deputy) {
+  std::set<std::string> deputies;
+  for (const ProcmanCommand& command : deployment.commands) deputies.insert(command.deputy);
+  std::string known;
+  for (const std::string& name : deputies) known += (known.empty() ? "" : ", ") + name;
+  if (o.deputy.empty() && deputies.size() != 1) {
+    throw std::runtime_error(o.file + " has commands of several deputies (" + known + "): say which with --deputy");
+  }
+  *deputy = o.deputy.empty() ? *deputies.begin() : o.deputy;
+  if (deputies.count(*deputy) == 0) {
+    throw std::runtime_error(o.file + " has no command of deputy " + *deputy + "; it has those of: " + known);
+  }
+  std::vector<ProcmanCommand> commands;
+  for (const ProcmanCommand& command : deployment.commands) {
+    if (command.deputy == *deputy) commands.push_back(command);
+  }
+  return commands;
+}
+
+// What evit.procman needs beside what only the user can know.
+void SetDefaults(const std::filesystem::path& logs) {
+  setenv("EVIT_CONFIG", ConfigFile("tracker.textproto").c_str(), 0);
+  if (std::getenv("EVIT_STATE") != nullptr) return;
+  // For restarts of services: an earlier deployment's state is none of this one's.
+  const std::filesystem::path state = logs / "state";
+  std::filesystem::remove_all(state);
+  std::filesystem::create_directories(state);
+  setenv("EVIT_STATE", state.c_str(), 1);
+}
+
+void Up(const UpOptions& o) {
+  const Deployment deployment = LoadDeployment(o.file);
+  std::string deputy_id;
+  const std::vector<ProcmanCommand> commands = CommandsOf(deployment, o, &deputy_id);
+  std::filesystem::create_directories(o.logs);
+  SetDefaults(std::filesystem::absolute(o.logs));
+
+  const std::string url = ResolveLcmUrl(o.lcm_url);
+  const char* asked = std::getenv("LCM_DEFAULT_URL");
+  std::unique_ptr<RunFile> run_file;
+  if (o.lcm_url.empty() && (asked == nullptr || *asked == '\0')) {
+    EnsureLocalMulticast(url);
+    run_file = std::make_unique<RunFile>(o.logs);
+  }
+  setenv("LCM_DEFAULT_URL", url.c_str(), 1);  // for the commands
+  struct sigaction action = {};
+  action.sa_handler = OnSignal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+
+  const auto bus = OpenLcmBus(url);
+  // What the commands say is shown as it comes over the bus, like in any sheriff.
+  bus->Subscribe(kPmOutput, [&](const std::string&, const std::uint8_t* data, std::size_t size) {
+    procman_lcm::output_t message;
+    if (!DecodeProcman(data, size, &message) || message.deputy_name != deputy_id) return;
+    std::printf("%s: %s", message.command_id.empty() ? deputy_id.c_str() : message.command_id.c_str(),
+                message.text.c_str());
+    std::fflush(stdout);
+  });
+  const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  Deputy deputy(bus.get(), deputy_id, commands, {programs, o.logs});
+  ScriptRunner runner(deployment, &deputy.supervisor());
+  runner.Run(o.script);
+  bool running = false;
+  while (g_stop == 0) {
+    bus->Poll(20);
+    runner.Tick();
+    deputy.Tick();
+    if (runner.done() && !running) {
+      std::printf("script \"%s\" has run; evit ps shows the commands, Ctrl-C ends them\n", o.script.c_str());
+      std::fflush(stdout);
+      running = true;
+    }
+  }
+  std::printf("stopping\n");
+  deputy.supervisor().StopAll();
+}
+
+}  // namespace
+
+void AddUpCommand(CLI::App* app) {
+  auto o = std::make_shared<UpOptions>();
+  CLI::App* up = app->add_subcommand("up", "Run a procman deployment headless: starts, watches and stops its commands");
+  up->add_option("file", o->file, "procman file, either dialect, e.g. procman/evit.procman")->required();
+  up->add_option("script", o->script, "script of it to run, e.g. replay or robot")->required();
+  up->add_option("--deputy", o->deputy, "run this deputy's commands (default: the only one of the file)");
+  up->add_option("--logs", o->logs, "folder for NAME.log and what restarts need")->default_val("evit-logs");
+  up->add_option("--lcm-url", o->lcm_url, "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
+  up->footer(
+      "Commands see this environment; EVIT_CONFIG and EVIT_STATE are set where they are not. Their programs are\n"
+      "looked for beside evit, then on PATH. A command that dies is started again where its auto_respawn is true.");
+  up->callback([o] { Up(*o); });
+}
+
+}  // namespace evit
