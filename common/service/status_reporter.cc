@@ -42,6 +42,15 @@ void StatusReporter::Echo() {
   std::fprintf(stderr, "%s: %s: %s\n", message_.service.c_str(), message_.state.c_str(), message_.detail.c_str());
 }
 
+void StatusReporter::LookForLosses() {
+  if (std::chrono::steady_clock::now() - looked_ < kPeriod) return;
+  looked_ = std::chrono::steady_clock::now();
+  const bool before = !losing_.empty();
+  losing_ = losses_.Look(counters_);
+  if (!echo_ || before == !losing_.empty()) return;
+  std::fprintf(stderr, "%s: %s\n", message_.service.c_str(), before ? "nothing gets lost any more" : losing_.c_str());
+}
+
 void StatusReporter::SetProgress(double share) {
   message_.progress = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : -1.0;
 }
@@ -77,8 +86,16 @@ void StatusReporter::Publish() {
     message_.timing_ms.push_back(timing.sum_ms / static_cast<double>(timing.calls));
   }
   message_.n_timings = static_cast<std::int32_t>(message_.timing_name.size());
+  LookForLosses();
+  const std::string state = message_.state, detail = message_.detail;
+  if (!losing_.empty() && state == "running") {
+    message_.state = "degraded";
+    message_.detail += "; " + losing_;
+  }
   std::vector<std::uint8_t> buffer;
   EncodeTo(message_, &buffer);
+  message_.state = state;
+  message_.detail = detail;
   bus_->Publish(channel_, buffer.data(), buffer.size());
   ++message_.seq;
   last_sent_ = std::chrono::steady_clock::now();

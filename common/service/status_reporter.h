@@ -7,12 +7,13 @@
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
+#include "common/service/loss_watch.h"
 #include "evit/service_status_t.hpp"
 
 namespace evit {
 
 /// Collects what a service says of itself and sends it as STATUS: at 1 Hz, and at once when the state
-/// changes.
+/// changes. While messages get lost, "running" is sent as "degraded", and the detail says what is lost.
 class StatusReporter {
  public:
   /// `bus` must outlive this.
@@ -36,6 +37,7 @@ class StatusReporter {
 
  private:
   void Echo();
+  void LookForLosses();
 
   static inline bool echo_ = false;
   struct Timing {
@@ -48,6 +50,9 @@ class StatusReporter {
   std::map<std::string, std::int64_t> counters_;
   std::map<std::string, Timing> timings_;
   std::chrono::steady_clock::time_point last_sent_;
+  LossWatch losses_;
+  std::string losing_;  // what of it is to be said
+  std::chrono::steady_clock::time_point looked_;
   std::string echoed_;
 };
 
