@@ -157,6 +157,8 @@ config::Tracker LoadTracker(const std::string& path) {
   positive(c.bootstrap().max_accel_bias(), "bootstrap.max_accel_bias");
   Require(c.failure().min_contrast() >= 0 && c.failure().min_contrast() < 1, path,
           "failure.min_contrast: 0 to 1 is wanted");
+  positive(c.failure().max_coast_s(), "failure.max_coast_s");
+  positive(c.failure().max_position_sigma_m(), "failure.max_position_sigma_m");
   positive(c.failure().max_speed(), "failure.max_speed");
   positive(c.failure().max_imu_gap_ms(), "failure.max_imu_gap_ms");
   return c;

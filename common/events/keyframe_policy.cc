@@ -31,7 +31,9 @@ std::optional<Utime> KeyframePolicy::Due(const Situation& s) const {
   }
   const bool enough = static_cast<double>(s.n_events) >= s.stride * static_cast<double>(n_event_) &&
                       s.n_imu >= s.stride * n_imu_;
-  const bool late = s.imu - s.last >= max_interval_ && s.n_events >= min_events_;
+  // Without events too a keyframe comes at last: the IMU goes on, and with it what is known of the state.
+  const Utime waited = s.imu - s.last;
+  const bool late = (waited >= max_interval_ && s.n_events >= min_events_) || waited >= 2 * max_interval_;
   if (enough || late) return s.imu;
   return std::nullopt;
 }

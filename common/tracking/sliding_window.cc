@@ -94,6 +94,12 @@ SlidingWindow::Summary SlidingWindow::Solve() {
   return result;
 }
 
+void SlidingWindow::DropNewestAlignment(const std::vector<BodyState>& states) {
+  for (std::size_t n = 0; n < nodes_.size(); ++n) nodes_[n].state = states[n];
+  nodes_.back().points = {};
+  nodes_.back().alignment = {};
+}
+
 Matrix15d SlidingWindow::NewestInformation() const {
   StatePrior prior = prior_;
   if (config_.first_node() == config::Window::FIXED) prior.information = 1e12 * Matrix15d::Identity();

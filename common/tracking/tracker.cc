@@ -1,15 +1,14 @@
 #include "common/tracking/tracker.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "common/tracking/image_speed.h"
+#include "common/tracking/text.h"
 
 namespace evit {
 namespace {
 
-constexpr std::size_t kMinPoints = 30;    // fewer say nothing about six unknowns
 constexpr Utime kQueryAhead = 20'000;     // us ahead of the newest keyframe, where nothing better is known
 constexpr Utime kFarthestAhead = 50'000;  // us: beyond that a prediction leaves the margin anyway
 
@@ -31,12 +30,6 @@ AlignmentSettings MakeAlignment(const Rig& rig, const config::Window& window) {
   }
   settings.kernel.scale = window.robust_scale() / window.image_sigma();
   return settings;
-}
-
-std::string Text(const char* format, double a, double b = 0) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
 }
 
 }  // namespace
@@ -68,6 +61,7 @@ void Tracker::Resume(Utime t, const BodyState& state, const Matrix15d& informati
   prior.mean = state;
   prior.information = information;
   window_.Reset({std::move(node)}, prior);
+  aligned_at_ = t;
   SetMode(TrackerMode::kTracking, "resumed from a checkpoint");
 }
 
@@ -80,7 +74,7 @@ void Tracker::Restart(const SE3& T_map_body, std::string reason) {
   state_.T_world_body = anchor_ = T_map_body;
   state_.velocity.setZero();
   frames_.clear();
-  bad_keyframes_ = 0;
+  bad_frames_ = 0;
   SetMode(TrackerMode::kBootstrapping, std::move(reason));
 }
 
@@ -193,54 +187,6 @@ bool Tracker::Bridge(const KeyframeInput& keyframe) {
   if (mode_ == TrackerMode::kTracking) pose.p += ToSeconds(keyframe.t - state_time_) * state_.velocity;
   Restart(pose, Text("IMU gap of %.0f ms: starting anew from the predicted pose", gap_ms));
   return true;
-}
-
-void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out) {
-  WindowNode node;
-  node.t = keyframe.t;
-  node.seq = keyframe.seq;
-  node.state = Predict(keyframe);
-  node.field = std::make_shared<SurfaceField>(keyframe.surface, 1);
-  node.points = active_.Sample(node.state.T_world_body,
-                               static_cast<int>(point_share_ * config_.points().per_keyframe()),
-                               static_cast<std::uint64_t>(keyframe.seq));
-  node.imu = std::make_shared<Preintegration>(keyframe.imu, state_.bias, rig_.imu_noise);
-  window_.Push(std::move(node));
-  const SlidingWindow::Summary summary = window_.Solve();
-  const WindowNode& newest = window_.nodes().back();
-  state_ = newest.state;
-  out->iterations = summary.iterations;
-  out->quality = MeasureAlignment(alignment_, *newest.field, newest.points, state_.T_world_body);
-
-  const config::Failure& limits = config_.failure();
-  std::string trouble;
-  if (!summary.usable) {
-    trouble = "the solver failed";
-  } else if (state_.velocity.norm() > limits.max_speed()) {
-    trouble = Text("speed of %.1f m/s is over the limit of %.1f", state_.velocity.norm(), limits.max_speed());
-  } else if (state_.bias.gyro.norm() > limits.max_gyro_bias() ||
-             state_.bias.accel.norm() > limits.max_accel_bias()) {
-    trouble = Text("biases too large: gyro %.3f rad/s, accel %.2f m/s^2", state_.bias.gyro.norm(),
-                   state_.bias.accel.norm());
-  }
-  // Few events say little either way: such a keyframe lives on its IMU term and is no evidence of failure.
-  const bool telling = keyframe.n_events >= config_.keyframes().min_events();
-  bad_keyframes_ = Aligned(out->quality) || !telling ? 0 : bad_keyframes_ + 1;
-  if (trouble.empty() && bad_keyframes_ > limits.max_bad_keyframes()) {
-    trouble = newest.points.size() < kMinPoints
-                  ? "no map points in view"
-                  : Text("the map does not lie on the events (contrast %.2f, at least %.2f wanted)",
-                         out->quality.contrast(), limits.min_contrast());
-  }
-  if (!trouble.empty()) {
-    Restart(state_.T_world_body, "");
-    SetMode(TrackerMode::kLost, trouble);
-    return;
-  }
-  for (const WindowNode& n : window_.nodes()) out->nodes.push_back({n.t, n.seq, n.state});
-  out->information = window_.NewestInformation();
-  out->covariance = PoseCovariance(out->information);
-  Finish(newest.points, out);
 }
 
 }  // namespace evit

@@ -83,9 +83,14 @@ class Tracker {
   const Eigen::Vector3d& rate() const { return rate_; }
 
  private:
+  static constexpr std::size_t kMinPoints = 30;  // fewer say nothing about six unknowns
+
   void ProcessBootstrap(const KeyframeInput& keyframe, TrackerOutput* out);
   void ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out);
+  std::string Trouble(const KeyframeInput& keyframe, bool usable, const std::string& coasting,
+                      const TrackerOutput& out);
   bool Bridge(const KeyframeInput& keyframe);
+  SE3 Guess() const;
   void Refuse(std::size_t n_points);
   Eigen::Vector3d RecentVelocity() const;
   bool ReadyToBootstrap() const;
@@ -109,7 +114,8 @@ class Tracker {
   Utime state_time_ = 0;
   Utime last_interval_ = 0;
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s: newest gyro reading less its bias
-  int bad_keyframes_ = 0;
+  int bad_frames_ = 0;        // high-rate frames in a row that did not fit
+  Utime aligned_at_ = 0;      // newest keyframe whose events the map lay on
   double point_share_ = 1;
 
   struct LocalizedFrame {  // high-rate frame kept until the window takes over

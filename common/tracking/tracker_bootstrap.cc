@@ -14,6 +14,9 @@ constexpr int kFollowLevels = 3;
 constexpr StartSigma kStartSigma{0.1, 0.09};     // a start pose typed in by hand; a lost tracker
 constexpr StartSigma kFollowSigma{0.01, 0.006};  // constant velocity and gyro over some 10 ms
 constexpr std::size_t kSureFrames = 3;
+constexpr int kAnchorOnly = 20;     // frames, before places around the anchor are tried
+constexpr int kRings = 2;           // of six places each
+constexpr double kRingStep = 0.15;  // m: less than the basin's diameter
 constexpr std::size_t kMaxFrames = 300;
 constexpr int kPatience = 100;  // frames that do not fit before the start counts as failed
 
@@ -41,7 +44,7 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, TrackerOutput* out
     anchor_.q = (anchor_.q * imu->delta().gamma).normalized();
   }
   const bool following = !frames_.empty() && imu != nullptr;
-  SE3 predicted = anchor_;
+  SE3 predicted = Guess();
   if (following) {
     predicted.q = (state_.T_world_body.q * imu->delta().gamma).normalized();
     predicted.p = state_.T_world_body.p + imu->dt() * state_.velocity;
@@ -72,7 +75,7 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, TrackerOutput* out
   // A single frame finds some minimum nearly anywhere; several in a row that agree with gyro and constant
   // velocity do not.
   if (frames_.size() < kSureFrames) return;
-  bad_keyframes_ = 0;
+  bad_frames_ = 0;
   anchor_ = fit.T_world_body;
   if (mode_ == TrackerMode::kLost) SetMode(TrackerMode::kBootstrapping, "found the map again");
   reason_ = "localising high-rate frames";
@@ -84,13 +87,25 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, TrackerOutput* out
   Finish(points, out);
 }
 
+// Where to look for the map next: at the anchor, and when that has not helped for a while, around it too, each
+// frame elsewhere.
+SE3 Tracker::Guess() const {
+  if (bad_frames_ <= kAnchorOnly) return anchor_;
+  const int k = bad_frames_ % (kRings * 6 + 1);
+  if (k == 0) return anchor_;
+  const int axis = (k - 1) % 3, sign = (k - 1) / 3 % 2 == 0 ? 1 : -1, ring = (k - 1) / 6 + 1;
+  SE3 guess = anchor_;
+  guess.p[axis] += sign * ring * kRingStep;
+  return guess;
+}
+
 void Tracker::Refuse(std::size_t n_points) {
   frames_.clear();  // the chain must have no holes
   state_.T_world_body = anchor_;
   state_.velocity.setZero();
-  ++bad_keyframes_;
+  ++bad_frames_;
   if (mode_ == TrackerMode::kLost) return;
-  if (bad_keyframes_ <= kPatience) {
+  if (bad_frames_ <= kPatience) {
     reason_ = "waiting for events that fit the map";
   } else if (n_points < 30) {
     SetMode(
@@ -140,6 +155,7 @@ bool Tracker::TryBootstrap() {
   window_.Solve();
   state_ = window_.nodes().back().state;
   frames_.clear();
+  aligned_at_ = window_.nodes().back().t;
   SetMode(TrackerMode::kTracking, "bootstrapped");
   return true;
 }

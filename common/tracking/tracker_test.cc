@@ -27,7 +27,7 @@ config::Tracker Config() {
       b->set_max_duration_s(2);
   b->set_max_gyro_bias(0.1), b->set_max_accel_bias(0.6);
   auto* f = c.mutable_failure();
-  f->set_min_contrast(0.15), f->set_max_bad_keyframes(5), f->set_max_speed(6), f->set_max_gyro_bias(0.2);
+  f->set_min_contrast(0.15), f->set_max_coast_s(0.3), f->set_max_position_sigma_m(0.2), f->set_max_speed(6), f->set_max_gyro_bias(0.2);
   f->set_max_accel_bias(1.5), f->set_max_imu_gap_ms(200);
   return c;
 }
@@ -70,7 +70,7 @@ struct Bench {
     KeyframeInput k;
     k.t = t;
     k.seq = seq++;
-    k.n_events = 20000;
+    k.n_events = seen_points.empty() ? 100 : 20000;
     k.surface = synthetic::DrawSurface(settings, seen_points, motion.State(ToSeconds(t)).T_world_body);
     if (last > 0) k.imu = motion.Samples(last, t, bias);
     k.imu_gap = 5000;
@@ -138,6 +138,42 @@ TEST(Tracker, SaysLostWhenTheWorldIsNotTheMap) {
   EXPECT_EQ(out.mode, TrackerMode::kLost);
   EXPECT_FALSE(out.has_pose);
   EXPECT_NE(out.reason, "");
+}
+
+TEST(Tracker, CoastsOnTheImuWhileThereAreNoEvents) {
+  const Motion motion;
+  config::Tracker config = Config();
+  config.mutable_failure()->set_max_coast_s(1.5);
+  Bench bench(config, motion.State(1.0).T_world_body);
+  Utime t = 1'000'000;
+  TrackerOutput out;
+  while (out.mode != TrackerMode::kTracking && t < 3'000'000) out = bench.Step(t += 10'000, bench.room);
+  for (int k = 0; k < 20; ++k) out = bench.Step(t += 25'000, bench.room);
+  ASSERT_EQ(out.mode, TrackerMode::kTracking);
+  const auto sigma = [&] { return std::sqrt(out.covariance.topLeftCorner<3, 3>().trace()); };
+  const double known = sigma();
+  double before = known;
+  for (int k = 0; k < 5; ++k) {  // 1 s in the dark
+    out = bench.Step(t += 200'000, {});
+    EXPECT_EQ(out.mode, TrackerMode::kTracking);
+    EXPECT_EQ(out.reason, "coasting on the IMU: no events");
+    EXPECT_EQ(out.quality.n_points, 0);
+    EXPECT_GT(sigma(), before);
+    before = sigma();
+  }
+  EXPECT_GT(before, 3 * known);
+  const auto error = [&] {
+    return (out.nodes.back().state.T_world_body.p - motion.State(ToSeconds(t)).T_world_body.p).norm();
+  };
+  EXPECT_LT(error(), 3 * before);
+  for (int k = 0; k < 5; ++k) out = bench.Step(t += 25'000, bench.room);
+  EXPECT_EQ(out.reason, "tracking");
+  EXPECT_LT(error(), 0.006);
+  EXPECT_LT(sigma(), 2 * known);
+  // Too long in the dark: it says so.
+  for (int k = 0; k < 8; ++k) out = bench.Step(t += 200'000, {});
+  EXPECT_EQ(out.mode, TrackerMode::kLost);
+  EXPECT_EQ(out.reason.substr(0, 13), "no events for");
 }
 
 TEST(Tracker, ASolveCutShortKeepsTheBestSoFar) {
