@@ -105,6 +105,10 @@ Rig LoadRig(const std::string& path) {
   rig.imu_rate_hz = imu.rate_hz();
   rig.imu_noise = {imu.gyro_noise_density(), imu.accel_noise_density(), imu.gyro_random_walk(),
                    imu.accel_random_walk()};
+  if (imu.has_gyro_range()) rig.imu_noise.gyro_range = imu.gyro_range();
+  if (imu.has_accel_range()) rig.imu_noise.accel_range = imu.accel_range();
+  Require(rig.imu_noise.gyro_range > 0 && rig.imu_noise.accel_range > 9.81, path,
+          "imu.gyro_range, imu.accel_range: full scale in rad/s and m/s^2 is wanted, the latter above 9.81");
   for (const double v : {imu.gyro_noise_density(), imu.accel_noise_density(), imu.gyro_random_walk(),
                          imu.accel_random_walk()}) {
     Require(v > 0 && v < 10, path,

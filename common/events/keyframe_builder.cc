@@ -34,7 +34,7 @@ KeyframeBuilder::KeyframeBuilder(const Rig& rig, const config::Tracker& config, 
                      : 0),
       truncation_(config.surface().truncation()),
       policy_(config.keyframes(), config.surface()),
-      merger_(rig.camera.width, rig.camera.height, lossless, rig.camera_time_offset),
+      merger_(rig.camera.width, rig.camera.height, lossless, rig.camera_time_offset, rig.imu_noise),
       surface_(rig.camera.width, rig.camera.height),
       hot_pixels_(rig.camera.width, rig.camera.height, config.surface().hot_pixel_rate_hz()),
       renderer_(rig.camera.width, rig.camera.height, config.surface()) {}

@@ -34,10 +34,11 @@ TEST_F(KeyframePolicyTest, InOverloadTheyTakeMoreOfBoth) {
   EXPECT_FALSE(policy_.Due(s));
 }
 
-TEST_F(KeyframePolicyTest, SlowMotionMakesAKeyframeInTheEndIfAnythingMoves) {
+TEST_F(KeyframePolicyTest, SlowMotionMakesAKeyframeInTheEndAndStandstillTwiceAsLate) {
   EXPECT_FALSE(policy_.Due(At(Mode::kTracking, 1'059'999, 1'000, 12)));
   EXPECT_EQ(policy_.Due(At(Mode::kTracking, 1'060'000, 1'000, 12)), 1'060'000);
-  EXPECT_FALSE(policy_.Due(At(Mode::kTracking, 9'000'000, 199, 1'600)));
+  EXPECT_FALSE(policy_.Due(At(Mode::kTracking, 1'119'999, 199, 24)));
+  EXPECT_EQ(policy_.Due(At(Mode::kTracking, 1'120'000, 0, 24)), 1'120'000);
 }
 
 TEST_F(KeyframePolicyTest, HighRateStampsLieBetweenSamples) {

@@ -17,8 +17,9 @@ void EraseFront(EventArray* events, std::size_t n) {
 
 }  // namespace
 
-StreamMerger::StreamMerger(int width, int height, bool wait_for_events, Utime time_offset)
-    : width_(width), height_(height), wait_for_events_(wait_for_events), offset_(time_offset) {}
+StreamMerger::StreamMerger(int width, int height, bool wait_for_events, Utime time_offset,
+                           const ImuNoise& noise)
+    : width_(width), height_(height), wait_for_events_(wait_for_events), offset_(time_offset), noise_(noise) {}
 
 void StreamMerger::Clear() {
   dropped_ += static_cast<std::int64_t>(events_.size());
@@ -60,7 +61,11 @@ bool StreamMerger::AddEvents(const EventArray& events, Utime watermark) {
 }
 
 bool StreamMerger::AddImu(const ImuSample& sample) {
-  if (!sample.gyro.allFinite() || !sample.accel.allFinite()) {
+  constexpr double kBeyond = 1.1;  // of full scale: sensors deliver a little more than they promise
+  const bool readable = sample.gyro.allFinite() && sample.accel.allFinite() &&
+                        sample.gyro.cwiseAbs().maxCoeff() <= kBeyond * noise_.gyro_range &&
+                        sample.accel.cwiseAbs().maxCoeff() <= kBeyond * noise_.accel_range;
+  if (!readable) {
     ++counters_.imu_invalid;
     return true;
   }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/events/event.h"
+#include "common/geometry/rig.h"
 #include "common/imu/imu_sample.h"
 
 namespace evit {
@@ -24,13 +25,14 @@ class StreamMerger {
     std::int64_t events_outside = 0;  // pixel not in the image
     std::int64_t events_late = 0;
     std::int64_t imu_late = 0;     // duplicates too
-    std::int64_t imu_invalid = 0;  // not finite
+    std::int64_t imu_invalid = 0;  // not finite, or beyond what the sensor can read
     std::int64_t resets = 0;
   };
 
   /// `wait_for_events`: never use an IMU sample before the events up to it are known; false (real time): go
   /// on when the IMU is kImuLead ahead. `time_offset` (us) is added to event stamps.
-  StreamMerger(int width, int height, bool wait_for_events, Utime time_offset);
+  /// IMU readings beyond `noise`'s ranges are errors.
+  StreamMerger(int width, int height, bool wait_for_events, Utime time_offset, const ImuNoise& noise = {});
 
   /// Sorted events, then: no event before `watermark` is still to come (event clock; last event's stamp will
   /// do).
@@ -67,6 +69,7 @@ class StreamMerger {
   int width_, height_;
   bool wait_for_events_;
   Utime offset_;
+  ImuNoise noise_;
   EventArray events_;
   std::size_t head_ = 0;      // first event kept
   std::int64_t dropped_ = 0;  // position of events_[0]

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "common/geometry/camera.h"
 #include "common/geometry/se3.h"
 #include "common/time/utime.h"
@@ -12,6 +14,8 @@ struct ImuNoise {
   double accel_density = 0;      // m/s^2/sqrt(Hz)
   double gyro_random_walk = 0;   // rad/s^2/sqrt(Hz)
   double accel_random_walk = 0;  // m/s^3/sqrt(Hz)
+  double gyro_range = std::numeric_limits<double>::infinity();   // rad/s: largest reading of an axis
+  double accel_range = std::numeric_limits<double>::infinity();  // m/s^2
 };
 
 /// Calibration of one event camera with one IMU. The body frame is the IMU's.

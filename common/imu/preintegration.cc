@@ -3,6 +3,23 @@
 #include <utility>
 
 namespace evit {
+namespace {
+
+// A reading at full scale says only that there was at least so much: the error of such a step, as a share of the
+// range.
+constexpr double kSaturatedError = 0.3;
+
+bool Saturated(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double range) {
+  return a.cwiseAbs().cwiseMax(b.cwiseAbs()).maxCoeff() >= 0.99 * range;
+}
+
+// Variance of a step's mean reading: a density becomes one by dividing by dt (Kalibr's convention).
+double Variance(double density, double dt, bool saturated, double range) {
+  const double error = saturated ? kSaturatedError * range : 0;
+  return density * density / dt + error * error;
+}
+
+}  // namespace
 
 Preintegration::Preintegration(std::vector<ImuSample> samples, const ImuBias& bias, const ImuNoise& noise)
     : samples_(std::move(samples)), noise_(noise) {
@@ -46,9 +63,10 @@ void Preintegration::Integrate(const ImuSample& a, const ImuSample& b) {
   G_gyro << half_dt2 * accel_by_rate, dt * accel_by_rate, dt * Jr;
   G_accel << half_dt2 * accel_by_accel, dt * accel_by_accel, Eigen::Matrix3d::Zero();
 
-  // A density becomes a variance per sample by dividing by dt (Kalibr's convention).
-  const double gyro_variance = noise_.gyro_density * noise_.gyro_density / dt;
-  const double accel_variance = noise_.accel_density * noise_.accel_density / dt;
+  const double gyro_variance = Variance(noise_.gyro_density, dt, Saturated(a.gyro, b.gyro, noise_.gyro_range),
+                                        noise_.gyro_range);
+  const double accel_variance = Variance(
+      noise_.accel_density, dt, Saturated(a.accel, b.accel, noise_.accel_range), noise_.accel_range);
   covariance_ = (F * covariance_ * F.transpose() + gyro_variance * G_gyro * G_gyro.transpose() +
                  accel_variance * G_accel * G_accel.transpose())
                     .eval();

@@ -155,6 +155,23 @@ TEST(Preintegration, CovarianceIsTheSpreadOfNoisyIntegrations) {
   }
 }
 
+TEST(Preintegration, ReadingsAtFullScaleAreHardlyBelieved) {
+  ImuNoise noise = kNoise;
+  noise.gyro_range = 8;
+  noise.accel_range = 50;
+  auto samples = Constant({1, 0, 0}, {0, 0, 9.81}, 6, 5000);
+  const Preintegration good(samples, {}, noise);
+  EXPECT_EQ(good.covariance(), Preintegration(samples, {}, kNoise).covariance());
+  samples[3].gyro.y() = -8;
+  const Preintegration cut_off(samples, {}, noise);
+  EXPECT_GT(cut_off.covariance()(7, 7), 100 * good.covariance()(7, 7));
+  samples[3].gyro.y() = 0;
+  samples[3].accel.z() = 50;
+  const Preintegration hit(samples, {}, noise);
+  EXPECT_GT(hit.covariance()(5, 5), 100 * good.covariance()(5, 5));
+  EXPECT_LT(hit.covariance()(7, 7), 2 * good.covariance()(7, 7));
+}
+
 TEST(PropagateImu, FollowsTheMotion) {
   const test::Motion begin = test::Handheld(0), end = test::Handheld(1'000'000);
   const ImuBias bias{{0.02, -0.01, 0.03}, {0.1, -0.1, 0.05}};

@@ -10,6 +10,7 @@ namespace evit {
 namespace {
 
 constexpr Utime kQueryAhead = 20'000;     // us ahead of the newest keyframe, where nothing better is known
+constexpr Utime kLongestGuess = 500'000;  // us at constant velocity: beyond that the last pose is as good a guess
 constexpr Utime kFarthestAhead = 50'000;  // us: beyond that a prediction leaves the margin anyway
 
 AlignmentSettings MakeAlignment(const Rig& rig, const config::Window& window) {
@@ -160,12 +161,11 @@ BodyState Tracker::Predict(const KeyframeInput& keyframe) const {
 TrackerOutput Tracker::Process(const KeyframeInput& keyframe) {
   TrackerOutput out;
   if (!keyframe.imu.empty()) rate_ = keyframe.imu.back().gyro - state_.bias.gyro;
-  if (Bridge(keyframe)) {
-    if (mode_ == TrackerMode::kTracking) {
-      ProcessTracking(keyframe, &out);
-    } else {
-      ProcessBootstrap(keyframe, &out);
-    }
+  const bool follows = Follows(keyframe);
+  if (mode_ == TrackerMode::kTracking) {
+    ProcessTracking(keyframe, &out);
+  } else {
+    ProcessBootstrap(keyframe, follows, &out);
   }
   last_interval_ = state_time_ > 0 ? keyframe.t - state_time_ : 0;
   state_time_ = keyframe.t;
@@ -174,19 +174,23 @@ TrackerOutput Tracker::Process(const KeyframeInput& keyframe) {
   return out;
 }
 
-// Handles the first keyframe and holes in the IMU stream. False: nothing more to do with this keyframe.
-bool Tracker::Bridge(const KeyframeInput& keyframe) {
-  if (state_time_ == 0) return true;
+// Whether the IMU tells how the body came here from the last keyframe. Where it does not, tracking starts anew.
+bool Tracker::Follows(const KeyframeInput& keyframe) {
+  if (state_time_ == 0) return false;
   const bool usable = keyframe.imu.size() >= 2 && keyframe.imu.front().t == state_time_ &&
                       keyframe.imu.back().t == keyframe.t;
   const double gap_ms =
       usable ? static_cast<double>(keyframe.imu_gap) * 1e-3 : 1e-3 * (keyframe.t - state_time_);
   if (usable && gap_ms <= config_.failure().max_imu_gap_ms()) return true;
-  if (keyframe.t <= state_time_) return false;
   SE3 pose = state_.T_world_body;
-  if (mode_ == TrackerMode::kTracking) pose.p += ToSeconds(keyframe.t - state_time_) * state_.velocity;
+  if (keyframe.t <= state_time_) {
+    Restart(pose, Text("the clock went back by %.0f ms: starting anew from the last pose", -gap_ms));
+    return false;
+  }
+  const Utime unseen = keyframe.t - state_time_;
+  if (mode_ == TrackerMode::kTracking && unseen <= kLongestGuess) pose.p += ToSeconds(unseen) * state_.velocity;
   Restart(pose, Text("IMU gap of %.0f ms: starting anew from the predicted pose", gap_ms));
-  return true;
+  return false;
 }
 
 }  // namespace evit

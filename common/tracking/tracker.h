@@ -85,11 +85,11 @@ class Tracker {
  private:
   static constexpr std::size_t kMinPoints = 30;  // fewer say nothing about six unknowns
 
-  void ProcessBootstrap(const KeyframeInput& keyframe, TrackerOutput* out);
+  void ProcessBootstrap(const KeyframeInput& keyframe, bool follows, TrackerOutput* out);
   void ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out);
   std::string Trouble(const KeyframeInput& keyframe, bool usable, const std::string& coasting,
                       const TrackerOutput& out);
-  bool Bridge(const KeyframeInput& keyframe);
+  bool Follows(const KeyframeInput& keyframe);
   SE3 Guess() const;
   void Refuse(std::size_t n_points);
   Eigen::Vector3d RecentVelocity() const;

@@ -14,11 +14,22 @@ constexpr int kFollowLevels = 3;
 constexpr StartSigma kStartSigma{0.1, 0.09};     // a start pose typed in by hand; a lost tracker
 constexpr StartSigma kFollowSigma{0.01, 0.006};  // constant velocity and gyro over some 10 ms
 constexpr std::size_t kSureFrames = 3;
-constexpr int kAnchorOnly = 20;     // frames, before places around the anchor are tried
-constexpr int kRings = 2;           // of six places each
-constexpr double kRingStep = 0.15;  // m: less than the basin's diameter
+constexpr int kAnchorOnly = 5;        // frames, before places around the anchor are tried
+constexpr double kNarrowest = 0.1;    // m: radius of the ball they lie in
+constexpr double kWidest = 1;         // m
+constexpr double kWidening = 0.004;   // m per frame, of some 10 ms
 constexpr std::size_t kMaxFrames = 300;
 constexpr int kPatience = 100;  // frames that do not fit before the start counts as failed
+
+// Van der Corput's sequence: fills (0, 1) evenly, however far one goes.
+double Halton(int k, int base) {
+  double value = 0, digit = 1;
+  for (; k > 0; k /= base) {
+    digit /= base;
+    value += digit * (k % base);
+  }
+  return value;
+}
 
 // What the window may believe of its first state: the accuracy of an event-only pose and of the alignment.
 StatePrior FirstPrior(const BodyState& state) {
@@ -33,13 +44,13 @@ StatePrior FirstPrior(const BodyState& state) {
 
 }  // namespace
 
-void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, TrackerOutput* out) {
+void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, bool follows, TrackerOutput* out) {
   auto field = std::make_shared<SurfaceField>(keyframe.surface, kStartLevels);
   // Rotation from the gyro, which is good without any start-up; position from the last frames. Where there
   // are none, from the anchor: the last pose that was sure, turned by the gyro since. It does not move with
   // what was refused.
   std::shared_ptr<Preintegration> imu;
-  if (state_time_ != 0 && keyframe.imu.size() >= 2) {
+  if (follows) {
     imu = std::make_shared<Preintegration>(keyframe.imu, state_.bias, rig_.imu_noise);
     anchor_.q = (anchor_.q * imu->delta().gamma).normalized();
   }
@@ -87,15 +98,17 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, TrackerOutput* out
   Finish(points, out);
 }
 
-// Where to look for the map next: at the anchor, and when that has not helped for a while, around it too, each
-// frame elsewhere.
+// Where to look for the map next: at the anchor, and when that does not help also anywhere in a ball around it that
+// grows as fast as a body may move, each frame elsewhere. (The gyro keeps the anchor's rotation true meanwhile.)
 SE3 Tracker::Guess() const {
-  if (bad_frames_ <= kAnchorOnly) return anchor_;
-  const int k = bad_frames_ % (kRings * 6 + 1);
-  if (k == 0) return anchor_;
-  const int axis = (k - 1) % 3, sign = (k - 1) / 3 % 2 == 0 ? 1 : -1, ring = (k - 1) / 6 + 1;
   SE3 guess = anchor_;
-  guess.p[axis] += sign * ring * kRingStep;
+  if (bad_frames_ <= kAnchorOnly || bad_frames_ % 2 == 0) return guess;
+  const double radius = std::min(kWidest, kNarrowest + kWidening * bad_frames_);
+  const Eigen::Vector3d cube(2 * Halton(bad_frames_, 2) - 1, 2 * Halton(bad_frames_, 3) - 1,
+                             2 * Halton(bad_frames_, 5) - 1);
+  // From the cube onto the ball, so that no sample is thrown away.
+  const double edge = cube.cwiseAbs().maxCoeff();
+  if (edge > 0) guess.p += radius * edge * cube.normalized();
   return guess;
 }
 

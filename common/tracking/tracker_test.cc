@@ -49,7 +49,7 @@ struct Bench {
   ImuBias bias{{0.004, -0.003, 0.002}, {0.03, -0.04, 0.02}};
   Tracker tracker;
   std::int64_t seq = 0;
-  Utime last = 0;
+  Utime last = 0, clock = 0;  // us to add to all stamps
 
   explicit Bench(const config::Tracker& config, const SE3& start) : tracker(MakeRig(), config, start) {}
 
@@ -68,11 +68,12 @@ struct Bench {
     }
     tracker.AddVisible(ids, points);
     KeyframeInput k;
-    k.t = t;
+    k.t = t + clock;
     k.seq = seq++;
     k.n_events = seen_points.empty() ? 100 : 20000;
     k.surface = synthetic::DrawSurface(settings, seen_points, motion.State(ToSeconds(t)).T_world_body);
     if (last > 0) k.imu = motion.Samples(last, t, bias);
+    for (ImuSample& s : k.imu) s.t += clock;
     k.imu_gap = 5000;
     last = t;
     return tracker.Process(k);
@@ -174,6 +175,23 @@ TEST(Tracker, CoastsOnTheImuWhileThereAreNoEvents) {
   for (int k = 0; k < 8; ++k) out = bench.Step(t += 200'000, {});
   EXPECT_EQ(out.mode, TrackerMode::kLost);
   EXPECT_EQ(out.reason.substr(0, 13), "no events for");
+}
+
+TEST(Tracker, AClockThatJumpsIsSaidAndTrackingResumes) {
+  for (const Utime jump : {Utime{-5'000'000}, Utime{3'600'000'000}}) {
+    const Motion motion;
+    Bench bench(Config(), motion.State(1.0).T_world_body);
+    Utime t = 1'000'000;
+    TrackerOutput out;
+    while (out.mode != TrackerMode::kTracking && t < 3'000'000) out = bench.Step(t += 10'000, bench.room);
+    ASSERT_EQ(out.mode, TrackerMode::kTracking);
+    bench.clock += jump;
+    bench.last = 0;  // frame_builder starts anew
+    out = bench.Step(t += 10'000, bench.room);
+    EXPECT_EQ(out.mode, TrackerMode::kBootstrapping);
+    for (int k = 0; k < 60 && out.mode != TrackerMode::kTracking; ++k) out = bench.Step(t += 10'000, bench.room);
+    EXPECT_EQ(out.mode, TrackerMode::kTracking) << jump;
+  }
 }
 
 TEST(Tracker, ASolveCutShortKeepsTheBestSoFar) {

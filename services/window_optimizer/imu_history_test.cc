@@ -38,6 +38,18 @@ TEST(ImuHistory, SaysWhatItDoesNotCover) {
   EXPECT_TRUE(history.Between(15'000, 15'000).empty());
 }
 
+TEST(ImuHistory, ClockThatJumpsBeginsAnew) {
+  ImuHistory history;
+  for (Utime t = 10'000'000; t <= 10'100'000; t += 5'000) history.Add(At(t));
+  EXPECT_FALSE(history.Add(At(9'500'000)));
+  EXPECT_TRUE(history.Add(At(5'000'000)));  // back by five seconds
+  EXPECT_TRUE(history.Add(At(5'005'000)));
+  EXPECT_EQ(history.Between(5'000'000, 5'005'000).size(), 2U);
+  EXPECT_TRUE(history.Between(10'000'000, 10'005'000).empty());
+  EXPECT_TRUE(history.Add(At(3'600'000'000)));  // an hour ahead
+  EXPECT_TRUE(history.Between(5'005'000, 3'600'000'000).empty());
+}
+
 TEST(ImuHistory, RefusesWhatIsNotNewer) {
   ImuHistory history;
   EXPECT_TRUE(history.Add(At(10)));

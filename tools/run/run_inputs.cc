@@ -50,14 +50,19 @@ void ReadSpan(const RunJob& job, RunInputs* inputs) {
                              " messages; make it with `evit import`, or record both channels");
   }
   constexpr Utime kNever = std::numeric_limits<Utime>::max();
-  inputs->begin = std::min(TimeOf<imu_batch_t>(log, *first_imu, kNever),
-                           TimeOf<event_packet_t>(log, *first_events, kNever));
+  const Utime imu = TimeOf<imu_batch_t>(log, *first_imu, kNever);
+  const Utime events = TimeOf<event_packet_t>(log, *first_events, kNever);
+  inputs->begin = std::min(imu, events);
   inputs->end = TimeOf<imu_batch_t>(log, *last_imu, -1);
   const Utime log_to_sensor = inputs->end - last_imu->utime;
   if (job.seconds) {
     const Utime begin = inputs->begin;
     inputs->begin = begin + static_cast<Utime>(1e6 * job.seconds->first);
     inputs->end = std::min(inputs->end, begin + static_cast<Utime>(1e6 * job.seconds->second));
+  }
+  // The first keyframe needs both streams.
+  for (const Utime first : {imu, events}) {
+    if (first != kNever) inputs->begin = std::max(inputs->begin, first);
   }
   if (inputs->begin >= inputs->end) throw std::runtime_error(job.log + ": has nothing at --seconds");
   // The number of events follows from a message's length: nothing else has to be read.
