@@ -69,7 +69,8 @@ class Splitter {
       if (at_ == line_.size()) Fail("has an open \"");
       const char c = line_[at_++];
       if (c == '"') return;
-      const bool escapes = c == '\\' && at_ < line_.size() && std::string("\"\\$").find(line_[at_]) != std::string::npos;
+      const bool escapes =
+          c == '\\' && at_ < line_.size() && std::string("\"\\$").find(line_[at_]) != std::string::npos;
       if (c == '$') {
         word_.text += Variable();
       } else {

@@ -17,9 +17,10 @@ struct CommandLine {
 /// Value of an environment variable, where it is set.
 using Variables = std::function<std::optional<std::string>(const std::string&)>;
 
-/// Splits like a POSIX shell: spaces, 'single' and "double" quotes, backslash, $NAME and ${NAME} (not in single
-/// quotes; outside double quotes its value is split at spaces). No shell is started: pipes, ; and > have no
-/// meaning. Throws std::runtime_error where a quote is open, a variable is not set or there is no program.
+/// Splits like a POSIX shell: spaces, 'single' and "double" quotes, backslash, $NAME and ${NAME} (not in
+/// single quotes; outside double quotes its value is split at spaces). No shell is started: pipes, ; and >
+/// have no meaning. Throws std::runtime_error where a quote is open, a variable is not set or there is no
+/// program.
 CommandLine SplitCommandLine(const std::string& line, const Variables& variables);
 
 /// With this process's environment.

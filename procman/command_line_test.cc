@@ -32,7 +32,8 @@ TEST(CommandLineTest, PutsVariablesIn) {
   EXPECT_THAT(Split("m $MAP").words, ElementsAre("m", "a", "map.pcd"));
   EXPECT_THAT(Split("m \"${MAP}x\" '${MAP}' ${EMPTY} \"$EMPTY\"").words,
               ElementsAre("m", "a map.pcdx", "${MAP}", ""));
-  EXPECT_THAT([] { Split("m ${NONE}"); }, ThrowsMessage<std::runtime_error>(HasSubstr("NONE, which is not set")));
+  EXPECT_THAT([] { Split("m ${NONE}"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("NONE, which is not set")));
 }
 
 TEST(CommandLineTest, EnvironmentComesBeforeTheProgram) {

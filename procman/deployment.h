@@ -8,11 +8,11 @@ namespace evit {
 /// One command of a deployment: what it is and how it is to be stopped.
 struct ProcmanCommand {
   std::string id;
-  std::string exec;            // command line, see SplitCommandLine
-  std::string deputy;          // who runs it
-  std::string group;           // "a/b": group b inside group a; empty: none
-  bool auto_respawn = false;   // started again when it ends by itself
-  int stop_signal = 2;         // SIGINT
+  std::string exec;              // command line, see SplitCommandLine
+  std::string deputy;            // who runs it
+  std::string group;             // "a/b": group b inside group a; empty: none
+  bool auto_respawn = false;     // started again when it ends by itself
+  int stop_signal = 2;           // SIGINT
   double stop_time_allowed = 7;  // s from that signal to SIGKILL
 };
 
@@ -20,10 +20,10 @@ struct ProcmanCommand {
 struct ScriptStep {
   enum class Kind { kStart, kStop, kRestart, kWaitMs, kWaitStatus, kRunScript };
   Kind kind = Kind::kStart;
-  bool whole_group = false;   // target is a group
-  std::string target;         // command, group or script
-  std::string wait;           // "running", "stopped"; empty: go on at once
-  int wait_ms = 0;            // kWaitMs
+  bool whole_group = false;  // target is a group
+  std::string target;        // command, group or script
+  std::string wait;          // "running", "stopped"; empty: go on at once
+  int wait_ms = 0;           // kWaitMs
 };
 
 struct ProcmanScript {

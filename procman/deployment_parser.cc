@@ -33,13 +33,15 @@ class Parser {
     } else if (word.text == "script" && depth == 0) {
       Script();
     } else {
-      Fail(word, "cmd, group" + std::string(depth == 0 ? " or script" : "") + " is expected, not " + word.text);
+      Fail(word,
+           "cmd, group" + std::string(depth == 0 ? " or script" : "") + " is expected, not " + word.text);
     }
   }
 
   void Group(const std::string& outer, int depth) {
     const Token name = Take(Token::Kind::kText, "the group's name in quotes");
-    if (name.text.empty() || name.text.find('/') != std::string::npos) Fail(name, "a group's name is not empty and has no /");
+    if (name.text.empty() || name.text.find('/') != std::string::npos)
+      Fail(name, "a group's name is not empty and has no /");
     if (depth >= kDeepest) Fail(name, "groups are nested too deep");
     const std::string path = outer.empty() ? name.text : outer + "/" + name.text;
     Sign("{");
@@ -87,7 +89,8 @@ class Parser {
 
   void Script() {
     const Token name = Take(Token::Kind::kText, "the script's name in quotes");
-    if (deployment_.FindScript(name.text) != nullptr) Fail(name, "there is a script \"" + name.text + "\" already");
+    if (deployment_.FindScript(name.text) != nullptr)
+      Fail(name, "there is a script \"" + name.text + "\" already");
     ProcmanScript script{name.text, {}};
     Sign("{");
     while (!TakeSign("}")) script.steps.push_back(Step());
@@ -136,7 +139,8 @@ class Parser {
 
   std::string Status() {
     const Token status = Take(Token::Kind::kText, "\"running\" or \"stopped\"");
-    if (status.text != "running" && status.text != "stopped") Fail(status, "the status is \"running\" or \"stopped\"");
+    if (status.text != "running" && status.text != "stopped")
+      Fail(status, "the status is \"running\" or \"stopped\"");
     return status.text;
   }
 
@@ -179,7 +183,8 @@ class Parser {
 // Every target exists, and no script runs itself, directly or through others.
 class ScriptChecker {
  public:
-  ScriptChecker(const Deployment& deployment, const std::string& file) : deployment_(deployment), file_(file) {}
+  ScriptChecker(const Deployment& deployment, const std::string& file)
+      : deployment_(deployment), file_(file) {}
 
   void Check(const ProcmanScript& script) {
     if (std::find(path_.begin(), path_.end(), script.name) != path_.end()) Fail(script, "runs itself");
@@ -197,7 +202,8 @@ class ScriptChecker {
       const ProcmanScript* inner = deployment_.FindScript(step.target);
       if (inner == nullptr) Fail(script, "runs script \"" + step.target + "\", which is not there");
       Check(*inner);
-    } else if (step.whole_group ? deployment_.Targets(step).empty() : deployment_.Find(step.target) == nullptr) {
+    } else if (step.whole_group ? deployment_.Targets(step).empty()
+                                : deployment_.Find(step.target) == nullptr) {
       Fail(script, std::string("means ") + (step.whole_group ? "group" : "command") + " \"" + step.target +
                        "\", which is not there");
     }
@@ -223,7 +229,8 @@ Deployment ParseDeployment(const std::string& text, const std::string& file) {
 
 Deployment LoadDeployment(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": cannot be read; a procman file is wanted, e.g. procman/evit.procman");
+  if (!file)
+    throw std::runtime_error(path + ": cannot be read; a procman file is wanted, e.g. procman/evit.procman");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   return ParseDeployment(text, path);
 }

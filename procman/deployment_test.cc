@@ -115,7 +115,8 @@ TEST(DeploymentTest, ErrorsNameFileLineAndRemedy) {
   for (const Bad& bad : cases) {
     EXPECT_THAT([&] { Parse(bad.text); }, ThrowsMessage<std::runtime_error>(HasSubstr(bad.says))) << bad.text;
   }
-  EXPECT_THAT([] { LoadDeployment("/none.procman"); }, ThrowsMessage<std::runtime_error>(HasSubstr("/none.procman")));
+  EXPECT_THAT([] { LoadDeployment("/none.procman"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("/none.procman")));
 }
 
 TEST(DeploymentTest, DeepNestingIsRefusedNotFatal) {
@@ -128,8 +129,9 @@ TEST(DeploymentTest, DeepNestingIsRefusedNotFatal) {
 TEST(DeploymentTest, TheShippedFilesAreInStep) {
   const std::string folder = EVIT_SOURCE_DIR "/procman/";
   const Deployment ours = LoadDeployment(folder + "evit.procman");
-  const std::string expected = "# Generated from evit.procman, see deployment_test.cc: change that file.\n\n" +
-                               WriteDeployment(ours, ProcmanDialect::kBotProcman);
+  const std::string expected =
+      "# Generated from evit.procman, see deployment_test.cc: change that file.\n\n" +
+      WriteDeployment(ours, ProcmanDialect::kBotProcman);
   if (std::getenv("EVIT_UPDATE") != nullptr) std::ofstream(folder + "evit.pmd") << expected;
   std::ifstream file(folder + "evit.pmd");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

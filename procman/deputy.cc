@@ -6,7 +6,7 @@
 namespace evit {
 namespace {
 
-constexpr std::size_t kMaxText = 16384;      // bytes of one PM_OUTPUT
+constexpr std::size_t kMaxText = 16384;       // bytes of one PM_OUTPUT
 constexpr std::size_t kMaxPerSecond = 65536;  // bytes: more is in the log files only
 
 std::int64_t HostMicroseconds() {
@@ -54,7 +54,8 @@ void Deputy::OnOrders(const std::uint8_t* data, std::size_t size) {
 void Deputy::Obey(const procman_lcm::cmd_desired_t& order) {
   ManagedProcess* process = supervisor_.Find(order.cmd.command_id);
   if (process == nullptr) {
-    PublishOutput("", "\"" + order.cmd.command_id + "\" is not a command of this deputy: the order is refused\n");
+    PublishOutput("",
+                  "\"" + order.cmd.command_id + "\" is not a command of this deputy: the order is refused\n");
     return;
   }
   Run& run = runs_[order.cmd.command_id];
@@ -75,7 +76,8 @@ void Deputy::OnOutput(const std::string& command, const std::string& text) {
   const Clock::time_point now = Clock::now();
   if (now - said_ >= std::chrono::seconds(1)) {
     if (left_out_ > 0) {
-      PublishOutput("", std::to_string(left_out_) + " bytes of output were left out; the log files have them\n");
+      PublishOutput("",
+                    std::to_string(left_out_) + " bytes of output were left out; the log files have them\n");
     }
     said_ = now;
     said_bytes_ = left_out_ = 0;
@@ -85,7 +87,8 @@ void Deputy::OnOutput(const std::string& command, const std::string& text) {
     return;
   }
   said_bytes_ += text.size();
-  for (std::size_t at = 0; at < text.size(); at += kMaxText) PublishOutput(command, text.substr(at, kMaxText));
+  for (std::size_t at = 0; at < text.size(); at += kMaxText)
+    PublishOutput(command, text.substr(at, kMaxText));
 }
 
 void Deputy::PublishOutput(const std::string& command, const std::string& text) {

@@ -13,9 +13,9 @@
 
 namespace evit {
 
-/// A supervisor on the bus, as procman's deputy is: PM_INFO at 1 Hz and on change, PM_OUTPUT for what its commands
-/// say, and it obeys PM_ORDERS and PM_DISCOVER. Orders choose among the commands it was given: what an order says
-/// of command lines is ignored, so that nothing from the bus is ever executed.
+/// A supervisor on the bus, as procman's deputy is: PM_INFO at 1 Hz and on change, PM_OUTPUT for what its
+/// commands say, and it obeys PM_ORDERS and PM_DISCOVER. Orders choose among the commands it was given: what
+/// an order says of command lines is ignored, so that nothing from the bus is ever executed.
 class Deputy {
  public:
   /// `bus` must outlive this. Starts nothing yet.
@@ -31,10 +31,10 @@ class Deputy {
  private:
   using Clock = std::chrono::steady_clock;
   struct Run {
-    std::int32_t id = 0;         // runid, as a sheriff counts
-    int runs = 0;                // of the process, when last looked at
+    std::int32_t id = 0;  // runid, as a sheriff counts
+    int runs = 0;         // of the process, when last looked at
     ManagedProcess::State state = ManagedProcess::State::kStopped;
-    ProcessUsage usage;          // when last sent
+    ProcessUsage usage;  // when last sent
     double cpu_share = 0;
   };
 
@@ -49,8 +49,8 @@ class Deputy {
   std::string id_;
   std::map<std::string, Run> runs_;  // by command
   HostUsage host_;
-  Clock::time_point sent_;           // PM_INFO
-  Clock::time_point said_;           // begin of the second that said_bytes_ counts
+  Clock::time_point sent_;  // PM_INFO
+  Clock::time_point said_;  // begin of the second that said_bytes_ counts
   std::size_t said_bytes_ = 0, left_out_ = 0;
   Supervisor supervisor_;
 };

@@ -20,8 +20,9 @@ class DeputyTest : public ProgramsTest {
   void SetUp() override {
     ProgramsTest::SetUp();
     Program("a", kWaits);
-    Program("talks", "i=0; while [ $i -lt 3000 ]; do echo 'a line of fifty characters, nothing more than that..'; "
-                     "i=$((i+1)); done; exec sleep 60");
+    Program("talks",
+            "i=0; while [ $i -lt 3000 ]; do echo 'a line of fifty characters, nothing more than that..'; "
+            "i=$((i+1)); done; exec sleep 60");
     hub_ = MakeMemoryHub();
     deputy_bus_ = OpenMemoryBus(hub_);
     bus_ = OpenMemoryBus(hub_);
@@ -29,7 +30,8 @@ class DeputyTest : public ProgramsTest {
     commands[0].id = commands[0].exec = "a";
     commands[0].group = "g";
     commands[1].id = commands[1].exec = "talks";
-    deputy_ = std::make_unique<Deputy>(deputy_bus_.get(), "d", commands, ManagedProcess::Places{folder_, folder_});
+    deputy_ =
+        std::make_unique<Deputy>(deputy_bus_.get(), "d", commands, ManagedProcess::Places{folder_, folder_});
     bus_->Subscribe(kPmInfo, [this](const std::string&, const std::uint8_t* data, std::size_t size) {
       std::string why;
       ASSERT_TRUE(DecodeProcman(data, size, &info_, &why)) << why;
@@ -133,7 +135,8 @@ TEST_F(DeputyTest, ATalkerIsCutShortOnTheBusButNotInItsLog) {
 // A sheriff's bus: the deputy works whenever the sheriff waits.
 class SteppedBus : public Bus {
  public:
-  SteppedBus(std::unique_ptr<Bus> inner, std::function<void()> step) : inner_(std::move(inner)), step_(std::move(step)) {}
+  SteppedBus(std::unique_ptr<Bus> inner, std::function<void()> step)
+      : inner_(std::move(inner)), step_(std::move(step)) {}
   void Publish(const std::string& channel, const void* data, std::size_t size) override {
     inner_->Publish(channel, data, size);
   }

@@ -32,7 +32,9 @@ class Lexer {
     return false;
   }
 
-  static bool InWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-'; }
+  static bool InWord(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+  }
   static bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
   Token Next() {
@@ -86,6 +88,8 @@ class Lexer {
 
 }  // namespace
 
-std::vector<Token> Tokenize(const std::string& text, const std::string& file) { return Lexer(text, file).Run(); }
+std::vector<Token> Tokenize(const std::string& text, const std::string& file) {
+  return Lexer(text, file).Run();
+}
 
 }  // namespace evit

@@ -13,8 +13,8 @@ struct Token {
   int line = 0;
 };
 
-/// Splits a procman file into words, quoted texts, whole numbers and the signs { } = ; , '#' begins a comment.
-/// The last token is kEnd. Throws std::runtime_error naming `file` and the line.
+/// Splits a procman file into words, quoted texts, whole numbers and the signs { } = ; , '#' begins a
+/// comment. The last token is kEnd. Throws std::runtime_error naming `file` and the line.
 std::vector<Token> Tokenize(const std::string& text, const std::string& file);
 
 }  // namespace evit

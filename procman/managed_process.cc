@@ -22,9 +22,12 @@ using std::chrono::milliseconds;
 constexpr milliseconds kFirstDelay{10}, kLongestDelay{1000};
 constexpr milliseconds kEarly{1000};  // a run that lasts longer was a good one
 constexpr std::size_t kWords = 4096;  // bytes of output kept for last words
-constexpr int kOutputPerTick = 1 << 18;  // bytes: a command that never stops talking does not hold up the others
+constexpr int kOutputPerTick =
+    1 << 18;  // bytes: a command that never stops talking does not hold up the others
 
-double Seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
+double Seconds(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
 
 }  // namespace
 

@@ -11,8 +11,9 @@
 
 namespace evit {
 
-/// One command as a process: started, asked to stop, killed where it does not, and started again with a growing
-/// delay where it dies by itself. It never outlives this process: the kernel kills it then, whatever happens.
+/// One command as a process: started, asked to stop, killed where it does not, and started again with a
+/// growing delay where it dies by itself. It never outlives this process: the kernel kills it then, whatever
+/// happens.
 class ManagedProcess {
  public:
   using Clock = std::chrono::steady_clock;
@@ -78,7 +79,7 @@ class ManagedProcess {
   Sink sink_;
   State state_ = State::kStopped;
   pid_t pid_ = 0;
-  int output_ = -1;   // read end of its stdout and stderr
+  int output_ = -1;  // read end of its stdout and stderr
   int log_ = -1;
   int runs_ = 0, early_deaths_ = 0, status_ = 0;
   bool start_again_ = false;  // Restart

@@ -27,8 +27,9 @@ class ManagedProcessTest : public ProgramsTest {
     return command;
   }
   std::unique_ptr<ManagedProcess> Make(const ProcmanCommand& command) {
-    return std::make_unique<ManagedProcess>(command, ManagedProcess::Places{folder_, folder_},
-                                            [this](const std::string&, const std::string& text) { said_ += text; });
+    return std::make_unique<ManagedProcess>(
+        command, ManagedProcess::Places{folder_, folder_},
+        [this](const std::string&, const std::string& text) { said_ += text; });
   }
   template <typename Condition>
   static bool TickUntil(ManagedProcess* process, Condition condition) {
@@ -84,7 +85,8 @@ TEST_F(ManagedProcessTest, IsStartedAgainWithGrowingDelay) {
   p->Start();
   ASSERT_TRUE(TickUntil(p.get(), [&] { return p->runs() == 6; }));
   EXPECT_GE(p->early_deaths(), 5);
-  for (const char* delay : {"in 10 ms", "in 20 ms", "in 40 ms", "in 80 ms", "in 160 ms"}) EXPECT_TRUE(Said(delay));
+  for (const char* delay : {"in 10 ms", "in 20 ms", "in 40 ms", "in 80 ms", "in 160 ms"})
+    EXPECT_TRUE(Said(delay));
   p->Stop();
   ASSERT_TRUE(TickUntil(p.get(), [&] { return !p->running(); }));
   const int runs = p->runs();
@@ -128,8 +130,9 @@ TEST_F(ManagedProcessTest, RestartIsOneNewRun) {
 }
 
 TEST_F(ManagedProcessTest, MissingProgramAndVariableAreNamed) {
-  EXPECT_THAT([&] { Make(Command("none_such"))->Start(); },
-              ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("no such program as none_such"), HasSubstr("PATH"))));
+  EXPECT_THAT(
+      [&] { Make(Command("none_such"))->Start(); },
+      ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("no such program as none_such"), HasSubstr("PATH"))));
   EXPECT_THAT([&] { Make(Command("ls ${EVIT_NONE}"))->Start(); },
               ThrowsMessage<std::runtime_error>(HasSubstr("EVIT_NONE")));
 }

@@ -18,7 +18,8 @@ void ScriptRunner::Run(const std::string& script) {
   if (deployment_.FindScript(script) == nullptr) {
     std::string known;
     for (const ProcmanScript& s : deployment_.scripts) known += (known.empty() ? "" : ", ") + s.name;
-    throw std::runtime_error("there is no script \"" + script + "\"; there are: " + (known.empty() ? "none" : known));
+    throw std::runtime_error("there is no script \"" + script +
+                             "\"; there are: " + (known.empty() ? "none" : known));
   }
   steps_.clear();
   next_ = 0;

@@ -12,7 +12,8 @@ namespace evit {
 /// Runs a script of a deployment step by step, without ever blocking.
 class ScriptRunner {
  public:
-  /// Steps of commands that `supervisor` does not have (another deputy's) are left out. All must outlive this.
+  /// Steps of commands that `supervisor` does not have (another deputy's) are left out. All must outlive
+  /// this.
   ScriptRunner(const Deployment& deployment, Supervisor* supervisor);
 
   /// Throws std::runtime_error, listing those there are, where there is no such script.

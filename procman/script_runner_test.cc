@@ -40,7 +40,8 @@ TEST_F(ScriptRunnerTest, RunsStepsInOrderAndWaits) {
   EXPECT_GE(std::chrono::steady_clock::now() - begin, 200ms);
   EXPECT_EQ(Text("trace"), "once\nstays\n");
   EXPECT_FALSE(supervisor.Find("stays")->running());
-  EXPECT_THAT([&] { runner.Run("none"); }, ThrowsMessage<std::runtime_error>(HasSubstr("there are: go, rest")));
+  EXPECT_THAT([&] { runner.Run("none"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("there are: go, rest")));
 }
 
 }  // namespace

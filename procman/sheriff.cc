@@ -71,7 +71,9 @@ std::string Sheriff::DeputyOf(const std::string& id) const {
   for (const auto& [deputy, info] : deputies_) {
     for (const auto& status : info.cmds) known += (known.empty() ? "" : ", ") + status.cmd.command_id;
     if (StatusOf(deputy, id) == nullptr) continue;
-    if (!found.empty()) throw std::runtime_error("deputies " + found + " and " + deputy + " both have a command \"" + id + "\"");
+    if (!found.empty())
+      throw std::runtime_error("deputies " + found + " and " + deputy + " both have a command \"" + id +
+                               "\"");
     found = deputy;
   }
   if (deputies_.empty()) {
@@ -102,7 +104,8 @@ void Sheriff::Give(Order order, const std::string& id, std::chrono::milliseconds
   const auto end = Clock::now() + longest;
   auto told = Clock::time_point();
   while (!obeyed()) {
-    if (Clock::now() > end) throw std::runtime_error(deputy + " does not obey; `evit logs " + id + "` may say why");
+    if (Clock::now() > end)
+      throw std::runtime_error(deputy + " does not obey; `evit logs " + id + "` may say why");
     if (Clock::now() - told > kRepeat) {
       orders.utime = HostMicroseconds();
       const std::vector<std::uint8_t> bytes = EncodeProcman(orders);

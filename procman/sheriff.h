@@ -11,7 +11,8 @@
 
 namespace evit {
 
-/// The other side of PM_*: sees all deputies and gives orders to them. Keeps nothing that a deputy does not say.
+/// The other side of PM_*: sees all deputies and gives orders to them. Keeps nothing that a deputy does not
+/// say.
 class Sheriff {
  public:
   /// `bus` must outlive this.
@@ -21,8 +22,8 @@ class Sheriff {
   const std::map<std::string, procman_lcm::deputy_info_t>& Look(std::chrono::milliseconds longest);
 
   enum class Order { kStart, kStop, kRestart };
-  /// Tells the deputy that has command `id`, again and again until it has obeyed. Throws std::runtime_error where
-  /// no deputy answers, none or several have that command, or it does not obey within `longest`.
+  /// Tells the deputy that has command `id`, again and again until it has obeyed. Throws std::runtime_error
+  /// where no deputy answers, none or several have that command, or it does not obey within `longest`.
   void Give(Order order, const std::string& id, std::chrono::milliseconds longest);
 
   /// What is said from now on: deputy, command, text.

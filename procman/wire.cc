@@ -21,10 +21,12 @@ const WireLayout& Status() {
 }
 
 WireLayout LayoutFor(const procman_lcm::orders_t* /*type*/) {
-  return {Bytes(8), Text("deputy_id"), Text("sheriff_id"), Count("ncmds", kMaxCommands), Group(&Desired(), "ncmds")};
+  return {Bytes(8), Text("deputy_id"), Text("sheriff_id"), Count("ncmds", kMaxCommands),
+          Group(&Desired(), "ncmds")};
 }
 WireLayout LayoutFor(const procman_lcm::deputy_info_t* /*type*/) {
-  return {Bytes(8), Text("deputy_id"), Bytes(4 + 4 * 8), Count("ncmds", kMaxCommands), Group(&Status(), "ncmds")};
+  return {Bytes(8), Text("deputy_id"), Bytes(4 + 4 * 8), Count("ncmds", kMaxCommands),
+          Group(&Status(), "ncmds")};
 }
 WireLayout LayoutFor(const procman_lcm::output_t* /*type*/) {
   return {Bytes(8), Text("deputy_name"), Text("command_id"), Text("text")};

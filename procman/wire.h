@@ -16,8 +16,9 @@ namespace evit {
 constexpr char kPmInfo[] = "PM_INFO", kPmOrders[] = "PM_ORDERS", kPmOutput[] = "PM_OUTPUT",
                kPmDiscover[] = "PM_DISCOVER";
 
-/// Like DecodeChecked of common/bus/codec.h, for procman's types: bytes are checked before the generated decoder
-/// sees them. False, with the reason in `why` (may be null), where they are not exactly one such message.
+/// Like DecodeChecked of common/bus/codec.h, for procman's types: bytes are checked before the generated
+/// decoder sees them. False, with the reason in `why` (may be null), where they are not exactly one such
+/// message.
 template <typename Message>
 bool DecodeProcman(const std::uint8_t* data, std::size_t size, Message* message, std::string* why = nullptr);
 

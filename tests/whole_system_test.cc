@@ -82,14 +82,17 @@ class WholeSystemTest : public ::testing::Test {
     return at == std::string::npos ? -1 : std::stoi(report.substr(at + key.size()));
   }
   // This test's, not those of tests that run beside it: its files lie in a folder of its own.
-  void Kill(const std::string& service) const { Shell("pkill -9 -f '^" + service + " .*" + folder_.string() + "/'"); }
+  void Kill(const std::string& service) const {
+    Shell("pkill -9 -f '^" + service + " .*" + folder_.string() + "/'");
+  }
   std::string RunCommand(const std::string& out, const std::string& more = "") const {
     for (const char* file : {"sample_map.pcd", "rig.textproto"}) {
       fs::copy_file(kLogs + file, Path(file), fs::copy_options::skip_existing);
     }
     // What others find a run by is the test's own too.
-    return "XDG_RUNTIME_DIR=" + folder_.string() + " " + kEvit + " run --log " + kLogs + "sample.lcmlog --map " +
-           Path("sample_map.pcd") + " --rig " + Path("rig.textproto") + " --initial-from " + kLogs + "sample_truth.tum --out " + Path(out) + " " + more;
+    return "XDG_RUNTIME_DIR=" + folder_.string() + " " + kEvit + " run --log " + kLogs +
+           "sample.lcmlog --map " + Path("sample_map.pcd") + " --rig " + Path("rig.textproto") +
+           " --initial-from " + kLogs + "sample_truth.tum --out " + Path(out) + " " + more;
   }
   static void ExpectGood(const std::string& trajectory, double max_position, double max_degrees) {
     const TrajectoryError error =

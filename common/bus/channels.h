@@ -20,10 +20,11 @@ struct Channels {
         status(prefix + "STATUS"),
         replay_control(prefix + "REPLAY_CONTROL"),
         credit(prefix + "CREDIT"),
-        stream_end(prefix + "STREAM_END") {}
+        stream_end(prefix + "STREAM_END"),
+        pose_hint(prefix + "POSE_HINT") {}
 
   std::string events, imu, ground_truth, keyframe, map_query, map_points, window_state, body_pose,
-      tracker_mode, status, replay_control, credit, stream_end;
+      tracker_mode, status, replay_control, credit, stream_end, pose_hint;
 };
 
 }  // namespace evit

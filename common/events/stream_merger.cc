@@ -19,7 +19,11 @@ void EraseFront(EventArray* events, std::size_t n) {
 
 StreamMerger::StreamMerger(int width, int height, bool wait_for_events, Utime time_offset,
                            const ImuNoise& noise)
-    : width_(width), height_(height), wait_for_events_(wait_for_events), offset_(time_offset), noise_(noise) {}
+    : width_(width),
+      height_(height),
+      wait_for_events_(wait_for_events),
+      offset_(time_offset),
+      noise_(noise) {}
 
 void StreamMerger::Clear() {
   dropped_ += static_cast<std::int64_t>(events_.size());

@@ -10,10 +10,10 @@ namespace evit {
 
 /// Noise of an IMU in continuous time (Kalibr's convention). Per sample: density / sqrt(dt).
 struct ImuNoise {
-  double gyro_density = 0;       // rad/s/sqrt(Hz)
-  double accel_density = 0;      // m/s^2/sqrt(Hz)
-  double gyro_random_walk = 0;   // rad/s^2/sqrt(Hz)
-  double accel_random_walk = 0;  // m/s^3/sqrt(Hz)
+  double gyro_density = 0;                                       // rad/s/sqrt(Hz)
+  double accel_density = 0;                                      // m/s^2/sqrt(Hz)
+  double gyro_random_walk = 0;                                   // rad/s^2/sqrt(Hz)
+  double accel_random_walk = 0;                                  // m/s^3/sqrt(Hz)
   double gyro_range = std::numeric_limits<double>::infinity();   // rad/s: largest reading of an axis
   double accel_range = std::numeric_limits<double>::infinity();  // m/s^2
 };

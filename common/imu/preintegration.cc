@@ -5,8 +5,8 @@
 namespace evit {
 namespace {
 
-// A reading at full scale says only that there was at least so much: the error of such a step, as a share of the
-// range.
+// A reading at full scale says only that there was at least so much: the error of such a step, as a share of
+// the range.
 constexpr double kSaturatedError = 0.3;
 
 bool Saturated(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double range) {
@@ -63,10 +63,10 @@ void Preintegration::Integrate(const ImuSample& a, const ImuSample& b) {
   G_gyro << half_dt2 * accel_by_rate, dt * accel_by_rate, dt * Jr;
   G_accel << half_dt2 * accel_by_accel, dt * accel_by_accel, Eigen::Matrix3d::Zero();
 
-  const double gyro_variance = Variance(noise_.gyro_density, dt, Saturated(a.gyro, b.gyro, noise_.gyro_range),
-                                        noise_.gyro_range);
-  const double accel_variance = Variance(
-      noise_.accel_density, dt, Saturated(a.accel, b.accel, noise_.accel_range), noise_.accel_range);
+  const double gyro_variance =
+      Variance(noise_.gyro_density, dt, Saturated(a.gyro, b.gyro, noise_.gyro_range), noise_.gyro_range);
+  const double accel_variance =
+      Variance(noise_.accel_density, dt, Saturated(a.accel, b.accel, noise_.accel_range), noise_.accel_range);
   covariance_ = (F * covariance_ * F.transpose() + gyro_variance * G_gyro * G_gyro.transpose() +
                  accel_variance * G_accel * G_accel.transpose())
                     .eval();

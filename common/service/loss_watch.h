@@ -25,7 +25,8 @@ class LossWatch {
       seen.before_last = seen.last;
       seen.last = {lost, received->second};
       if (more_lost < 3 || 100 * more_lost <= more) continue;
-      text += (text.empty() ? "" : ", ") + std::to_string((100 * more_lost + more / 2) / more) + " % of " + channel;
+      text += (text.empty() ? "" : ", ") + std::to_string((100 * more_lost + more / 2) / more) + " % of " +
+              channel;
     }
     if (text.empty()) return text;
     return text + " get lost: is net.core.rmem_max below 4 MiB, the link too slow, or the host too busy?";

@@ -7,8 +7,11 @@ namespace {
 
 TEST(LossWatchTest, NamesWhatIsBeingLostAndForgets) {
   LossWatch watch;
-  std::map<std::string, std::int64_t> counters{
-      {"EVENTS.received", 1000}, {"EVENTS.lost", 2}, {"IMU.received", 200}, {"IMU.lost", 0}, {"mode.lost", 50}};
+  std::map<std::string, std::int64_t> counters{{"EVENTS.received", 1000},
+                                               {"EVENTS.lost", 2},
+                                               {"IMU.received", 200},
+                                               {"IMU.lost", 0},
+                                               {"mode.lost", 50}};
   EXPECT_EQ(watch.Look(counters), "");
   counters["EVENTS.received"] += 800;
   counters["EVENTS.lost"] += 200;

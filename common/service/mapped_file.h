@@ -9,12 +9,13 @@
 
 namespace evit {
 
-/// A block of bytes in a file that is mapped into memory: storing costs as much as copying it, and what was stored
-/// last is there, whole, even if this process is killed at that very moment. For what a restarted service needs.
+/// A block of bytes in a file that is mapped into memory: storing costs as much as copying it, and what was
+/// stored last is there, whole, even if this process is killed at that very moment. For what a restarted
+/// service needs.
 class MappedFile {
  public:
-  /// `identity`: what the block belongs to; one of another identity or size is not loaded. The file is made where
-  /// it is not there. Throws std::runtime_error, naming the file, where it cannot be.
+  /// `identity`: what the block belongs to; one of another identity or size is not loaded. The file is made
+  /// where it is not there. Throws std::runtime_error, naming the file, where it cannot be.
   MappedFile(const std::string& path, std::int64_t identity, std::size_t size);
   ~MappedFile();
   MappedFile(const MappedFile&) = delete;

@@ -39,7 +39,8 @@ void StatusReporter::Echo() {
   const std::string head = message_.state + ": " + message_.detail.substr(0, message_.detail.find(':'));
   if (head == echoed_) return;
   echoed_ = head;
-  std::fprintf(stderr, "%s: %s: %s\n", message_.service.c_str(), message_.state.c_str(), message_.detail.c_str());
+  std::fprintf(stderr, "%s: %s: %s\n", message_.service.c_str(), message_.state.c_str(),
+               message_.detail.c_str());
 }
 
 void StatusReporter::LookForLosses() {
@@ -48,7 +49,8 @@ void StatusReporter::LookForLosses() {
   const bool before = !losing_.empty();
   losing_ = losses_.Look(counters_);
   if (!echo_ || before == !losing_.empty()) return;
-  std::fprintf(stderr, "%s: %s\n", message_.service.c_str(), before ? "nothing gets lost any more" : losing_.c_str());
+  std::fprintf(stderr, "%s: %s\n", message_.service.c_str(),
+               before ? "nothing gets lost any more" : losing_.c_str());
 }
 
 void StatusReporter::SetProgress(double share) {

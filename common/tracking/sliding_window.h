@@ -41,8 +41,8 @@ class SlidingWindow {
   std::optional<WindowNode> Push(WindowNode node);
 
   Summary Solve();
-  /// Takes back what Solve() made of the newest node's surface: it keeps its IMU term alone, and all states are
-  /// `states`, those before Solve(), oldest first.
+  /// Takes back what Solve() made of the newest node's surface: it keeps its IMU term alone, and all states
+  /// are `states`, those before Solve(), oldest first.
   void DropNewestAlignment(const std::vector<BodyState>& states);
   /// Solve() stops after so long with the best states so far; 0: never.
   void set_time_budget(double seconds) { time_budget_ = seconds; }

@@ -9,8 +9,9 @@
 namespace evit {
 namespace {
 
-constexpr Utime kQueryAhead = 20'000;     // us ahead of the newest keyframe, where nothing better is known
-constexpr Utime kLongestGuess = 500'000;  // us at constant velocity: beyond that the last pose is as good a guess
+constexpr Utime kQueryAhead = 20'000;  // us ahead of the newest keyframe, where nothing better is known
+constexpr Utime kLongestGuess =
+    500'000;  // us at constant velocity: beyond that the last pose is as good a guess
 constexpr Utime kFarthestAhead = 50'000;  // us: beyond that a prediction leaves the margin anyway
 
 AlignmentSettings MakeAlignment(const Rig& rig, const config::Window& window) {
@@ -174,7 +175,8 @@ TrackerOutput Tracker::Process(const KeyframeInput& keyframe) {
   return out;
 }
 
-// Whether the IMU tells how the body came here from the last keyframe. Where it does not, tracking starts anew.
+// Whether the IMU tells how the body came here from the last keyframe. Where it does not, tracking starts
+// anew.
 bool Tracker::Follows(const KeyframeInput& keyframe) {
   if (state_time_ == 0) return false;
   const bool usable = keyframe.imu.size() >= 2 && keyframe.imu.front().t == state_time_ &&
@@ -188,7 +190,8 @@ bool Tracker::Follows(const KeyframeInput& keyframe) {
     return false;
   }
   const Utime unseen = keyframe.t - state_time_;
-  if (mode_ == TrackerMode::kTracking && unseen <= kLongestGuess) pose.p += ToSeconds(unseen) * state_.velocity;
+  if (mode_ == TrackerMode::kTracking && unseen <= kLongestGuess)
+    pose.p += ToSeconds(unseen) * state_.velocity;
   Restart(pose, Text("IMU gap of %.0f ms: starting anew from the predicted pose", gap_ms));
   return false;
 }

@@ -55,6 +55,8 @@ class Tracker {
   /// Looks for the map at this state instead, before the first keyframe: velocity and biases are trusted.
   void StartFrom(const BodyState& state);
 
+  /// Whatever it was doing: the body is here, to some centimetres and degrees.
+  void StartAnew(const SE3& T_map_body) { Restart(T_map_body, "starting anew from a pose hint"); }
   /// Goes on tracking where another tracker was after its keyframe of time `t`, as if it were that one:
   /// `information` is TrackerOutput's. The next keyframe must follow that one.
   void Resume(Utime t, const BodyState& state, const Matrix15d& information);
@@ -114,8 +116,8 @@ class Tracker {
   Utime state_time_ = 0;
   Utime last_interval_ = 0;
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s: newest gyro reading less its bias
-  int bad_frames_ = 0;        // high-rate frames in a row that did not fit
-  Utime aligned_at_ = 0;      // newest keyframe whose events the map lay on
+  int bad_frames_ = 0;                              // high-rate frames in a row that did not fit
+  Utime aligned_at_ = 0;                            // newest keyframe whose events the map lay on
   double point_share_ = 1;
 
   struct LocalizedFrame {  // high-rate frame kept until the window takes over

@@ -14,10 +14,10 @@ constexpr int kFollowLevels = 3;
 constexpr StartSigma kStartSigma{0.1, 0.09};     // a start pose typed in by hand; a lost tracker
 constexpr StartSigma kFollowSigma{0.01, 0.006};  // constant velocity and gyro over some 10 ms
 constexpr std::size_t kSureFrames = 3;
-constexpr int kAnchorOnly = 5;        // frames, before places around the anchor are tried
-constexpr double kNarrowest = 0.1;    // m: radius of the ball they lie in
-constexpr double kWidest = 1;         // m
-constexpr double kWidening = 0.004;   // m per frame, of some 10 ms
+constexpr int kAnchorOnly = 5;       // frames, before places around the anchor are tried
+constexpr double kNarrowest = 0.1;   // m: radius of the ball they lie in
+constexpr double kWidest = 1;        // m
+constexpr double kWidening = 0.004;  // m per frame, of some 10 ms
 constexpr std::size_t kMaxFrames = 300;
 constexpr int kPatience = 100;  // frames that do not fit before the start counts as failed
 
@@ -98,8 +98,9 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, bool follows, Trac
   Finish(points, out);
 }
 
-// Where to look for the map next: at the anchor, and when that does not help also anywhere in a ball around it that
-// grows as fast as a body may move, each frame elsewhere. (The gyro keeps the anchor's rotation true meanwhile.)
+// Where to look for the map next: at the anchor, and when that does not help also anywhere in a ball around
+// it that grows as fast as a body may move, each frame elsewhere. (The gyro keeps the anchor's rotation true
+// meanwhile.)
 SE3 Tracker::Guess() const {
   SE3 guess = anchor_;
   if (bad_frames_ <= kAnchorOnly || bad_frames_ % 2 == 0) return guess;

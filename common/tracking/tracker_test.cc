@@ -27,7 +27,8 @@ config::Tracker Config() {
       b->set_max_duration_s(2);
   b->set_max_gyro_bias(0.1), b->set_max_accel_bias(0.6);
   auto* f = c.mutable_failure();
-  f->set_min_contrast(0.15), f->set_max_coast_s(0.3), f->set_max_position_sigma_m(0.2), f->set_max_speed(6), f->set_max_gyro_bias(0.2);
+  f->set_min_contrast(0.15), f->set_max_coast_s(0.3), f->set_max_position_sigma_m(0.2), f->set_max_speed(6),
+      f->set_max_gyro_bias(0.2);
   f->set_max_accel_bias(1.5), f->set_max_imu_gap_ms(200);
   return c;
 }
@@ -189,7 +190,8 @@ TEST(Tracker, AClockThatJumpsIsSaidAndTrackingResumes) {
     bench.last = 0;  // frame_builder starts anew
     out = bench.Step(t += 10'000, bench.room);
     EXPECT_EQ(out.mode, TrackerMode::kBootstrapping);
-    for (int k = 0; k < 60 && out.mode != TrackerMode::kTracking; ++k) out = bench.Step(t += 10'000, bench.room);
+    for (int k = 0; k < 60 && out.mode != TrackerMode::kTracking; ++k)
+      out = bench.Step(t += 10'000, bench.room);
     EXPECT_EQ(out.mode, TrackerMode::kTracking) << jump;
   }
 }

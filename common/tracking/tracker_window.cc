@@ -1,4 +1,5 @@
-// The tracker at work: one keyframe more in the window, or, where its events say nothing, coasting on the IMU.
+// The tracker at work: one keyframe more in the window, or, where its events say nothing, coasting on the
+// IMU.
 #include <cmath>
 #include <utility>
 
@@ -63,7 +64,8 @@ std::string Tracker::Trouble(const KeyframeInput& keyframe, bool usable, const s
   if (state_.velocity.norm() > limits.max_speed()) {
     return Text("speed of %.1f m/s is over the limit of %.1f", state_.velocity.norm(), limits.max_speed());
   }
-  if (state_.bias.gyro.norm() > limits.max_gyro_bias() || state_.bias.accel.norm() > limits.max_accel_bias()) {
+  if (state_.bias.gyro.norm() > limits.max_gyro_bias() ||
+      state_.bias.accel.norm() > limits.max_accel_bias()) {
     return Text("biases too large: gyro %.3f rad/s, accel %.2f m/s^2", state_.bias.gyro.norm(),
                 state_.bias.accel.norm());
   }

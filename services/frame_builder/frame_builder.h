@@ -20,8 +20,9 @@ namespace evit {
 /// keyframe is and how it is made is in common/events.
 ///
 /// Lossless: keyframe k is made with the TRACKER_MODE of keyframe k-2 and waits for it; meanwhile CREDIT
-/// holds the streams back, and keyframes without an answer are sent again. Real time: nothing waits; an optimiser
-/// that was restarted gets the keyframes since the last one it names, as far as they are still held.
+/// holds the streams back, and keyframes without an answer are sent again. Real time: nothing waits; an
+/// optimiser that was restarted gets the keyframes since the last one it names, as far as they are still
+/// held.
 class FrameBuilder : public Service {
  public:
   struct Settings {
@@ -65,7 +66,7 @@ class FrameBuilder : public Service {
     std::int64_t seq;
     std::vector<std::uint8_t> bytes;
   };
-  std::deque<Sent> recent_;  // keyframes without an answer; real time: the newest ones
+  std::deque<Sent> recent_;          // keyframes without an answer; real time: the newest ones
   std::deque<std::int64_t> wanted_;  // numbers of those that a restarted optimiser needs again
   std::int64_t last_sent_ = -1, last_answered_ = -1;
   Clock::time_point moved_ = Clock::now();  // last keyframe sent, or answer heard

@@ -188,7 +188,8 @@ TEST_F(FrameBuilderTest, ARestartedOptimiserGetsTheKeyframesSinceItsLastOne) {
     for (int k = 0; k < 8; ++k) Settle();
   }
   ASSERT_EQ(again.size(), 5U);
-  for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(again[k], mode.keyframe_seq + 1 + static_cast<std::int64_t>(k));
+  for (std::size_t k = 0; k < 5; ++k)
+    EXPECT_EQ(again[k], mode.keyframe_seq + 1 + static_cast<std::int64_t>(k));
 }
 
 TEST_F(FrameBuilderTest, BadMessagesAreCountedAndChangeNothing) {

@@ -82,7 +82,8 @@ LogReplay::LogReplay(const LogReplayOptions& options, Bus* bus, const Channels& 
     if (options.lossless) throw std::runtime_error("--position does not go with --lossless");
     // Another part of the same recording is another stream too.
     status_.Counter("continued") = 0;
-    position_.emplace(options.position, recording_.fingerprint() + static_cast<std::int64_t>(begin_ << 32 ^ end_));
+    position_.emplace(options.position,
+                      recording_.fingerprint() + static_cast<std::int64_t>(begin_ << 32 ^ end_));
     const std::optional<ReplayPosition> position = position_->Load();
     if (position && position->next >= static_cast<std::int64_t>(begin_) &&
         position->next <= static_cast<std::int64_t>(end_)) {

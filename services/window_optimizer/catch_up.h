@@ -9,8 +9,9 @@
 
 namespace evit {
 
-/// After a restart: collects the keyframes that frame_builder still holds and sends again, and those that come
-/// live meanwhile, until there is no hole between the last one processed before the restart and the newest.
+/// After a restart: collects the keyframes that frame_builder still holds and sends again, and those that
+/// come live meanwhile, until there is no hole between the last one processed before the restart and the
+/// newest.
 class KeyframeCatchUp {
  public:
   using Clock = std::chrono::steady_clock;

@@ -7,7 +7,8 @@ namespace evit {
 bool ImuHistory::Add(const ImuSample& sample) {
   constexpr Utime kJump = kMicrosPerSecond;
   // A clock that jumps: what came before does not belong to what comes now.
-  if (!samples_.empty() && (sample.t < samples_.back().t - kJump || sample.t > samples_.back().t + kSpan)) Clear();
+  if (!samples_.empty() && (sample.t < samples_.back().t - kJump || sample.t > samples_.back().t + kSpan))
+    Clear();
   if (!samples_.empty() && sample.t <= samples_.back().t) return false;
   samples_.push_back(sample);
   while (samples_.back().t - samples_.front().t > kSpan) samples_.pop_front();

@@ -84,6 +84,7 @@ bool WindowOptimizer::FinishWork(bool wait) {
   if (ask) AskForPoints(tracker_.NextQuery());
   if (answer_ && !ask) tracker_.AddVisible(answer_->id, PointsOf(*answer_));
   answer_.reset();
+  TakeHint();
   return true;
 }
 

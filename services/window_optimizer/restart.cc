@@ -11,13 +11,15 @@ constexpr auto kAnnounceAgain = std::chrono::milliseconds(50);
 
 }  // namespace
 
-// Tells frame_builder the last keyframe that was processed, as the answer to it did: it sends those since again.
+// Tells frame_builder the last keyframe that was processed, as the answer to it did: it sends those since
+// again.
 void WindowOptimizer::AnnounceCheckpoint() {
   TrackerOutput output;
   output.mode = TrackerMode::kTracking;
   output.reason = "restarted: waiting for the keyframes since the checkpoint";
   output.image_speed = checkpoint_->image_speed;
-  tracker_mode_t message = ToTrackerMode(output, checkpoint_->state, checkpoint_->t, checkpoint_->keyframe_seq);
+  tracker_mode_t message =
+      ToTrackerMode(output, checkpoint_->state, checkpoint_->t, checkpoint_->keyframe_seq);
   message.keyframe_epoch = checkpoint_->keyframe_epoch;
   message.keyframe_stride = 1;
   Send(channels_.tracker_mode, &message, &mode_seq_);
@@ -46,8 +48,8 @@ void WindowOptimizer::CatchUp() {
   ProcessQueue();
 }
 
-// Where the keyframes since are gone, at the first one there is: whether it is so near the checkpoint that the
-// tracker can start where the body must be now.
+// Where the keyframes since are gone, at the first one there is: whether it is so near the checkpoint that
+// the tracker can start where the body must be now.
 bool WindowOptimizer::Resumed() {
   constexpr Utime kLongest = 3'000'000;  // us: beyond that the prediction is worth nothing
   const Checkpoint checkpoint = *std::exchange(checkpoint_, std::nullopt);
@@ -64,6 +66,5 @@ bool WindowOptimizer::Resumed() {
   AskForPoints(tracker_.NextQuery());
   return true;
 }
-
 
 }  // namespace evit

@@ -26,6 +26,7 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
       status_(bus, channels, "window_optimizer", NewEpoch()),
       keyframes_(&status_, "KEYFRAME"),
       imu_messages_(&status_, "IMU"),
+      pose_hints_(&status_, "POSE_HINT"),
       tracker_(settings.rig, settings.tracker, settings.T_map_body) {
   const auto on = [&](const std::string& channel, auto method) {
     bus_->Subscribe(channel, [this, method](const std::string&, const std::uint8_t* data, std::size_t size) {
@@ -35,6 +36,7 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
   on(channels_.keyframe, &WindowOptimizer::OnKeyframe);
   on(channels_.map_points, &WindowOptimizer::OnMapPoints);
   on(channels_.imu, &WindowOptimizer::OnImu);
+  on(channels_.pose_hint, &WindowOptimizer::OnPoseHint);
   last_mode_.keyframe_seq = -1;
   last_mode_.keyframe_stride = 1;
   if (!settings.lossless) tracker_.set_solve_budget(kSolveBudget);
@@ -134,8 +136,8 @@ bool WindowOptimizer::InOrder(SequenceCounter::Verdict verdict, const keyframe_t
 void WindowOptimizer::Queue(keyframe_t message) {
   // High-rate frames may wait: they come in a burst at the start, and bootstrapping needs each.
   // So may those since the last checkpoint.
-  const bool patient = !queue_.empty() && (queue_.front().message.high_rate != 0 ||
-                                           queue_.front().message.seq <= caught_up_);
+  const bool patient =
+      !queue_.empty() && (queue_.front().message.high_rate != 0 || queue_.front().message.seq <= caught_up_);
   const std::size_t longest = patient ? kMaxBootstrapQueue : kMaxQueue;
   while (!settings_.lossless && queue_.size() >= longest) {
     queue_.pop_front();
@@ -161,6 +163,27 @@ void WindowOptimizer::OnImu(const std::uint8_t* data, std::size_t size) {
     body_pose_t pose = ToBodyPose(sample.t, PropagateImu(live_, samples, live_bias_, settings_.rig.gravity));
     Send(channels_.body_pose, &pose, &pose_seq_);
   }
+}
+
+void WindowOptimizer::OnPoseHint(const std::uint8_t* data, std::size_t size) {
+  body_pose_t message;
+  if (!DecodeChecked(data, size, &message)) {
+    pose_hints_.CountInvalid();
+    return;
+  }
+  if (pose_hints_.Accept(message.epoch, message.seq) == SequenceCounter::Verdict::kOld) return;
+  const double* q = message.orientation;
+  hint_ = SE3{Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(), Eigen::Vector3d(message.position)};
+  if (!work_) TakeHint();
+}
+
+void WindowOptimizer::TakeHint() {
+  if (!hint_) return;
+  tracker_.StartAnew(*hint_);
+  hint_.reset();
+  checkpoint_.reset();
+  live_time_ = 0;
+  AskForPoints(tracker_.NextQuery());
 }
 
 void WindowOptimizer::PublishPoses(const std::vector<ImuSample>& samples, NavState from,

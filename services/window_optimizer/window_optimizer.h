@@ -26,14 +26,15 @@
 
 namespace evit {
 
-/// KEYFRAME, IMU and MAP_POINTS in; WINDOW_STATE and TRACKER_MODE for each keyframe, BODY_POSE for each IMU
-/// sample and MAP_QUERY out. The tracker itself is common/tracking.
+/// KEYFRAME, IMU, MAP_POINTS and POSE_HINT in; WINDOW_STATE and TRACKER_MODE for each keyframe, BODY_POSE for
+/// each IMU sample and MAP_QUERY out. The tracker itself is common/tracking.
 ///
 /// The points for the next keyframe are asked for before one is processed, so that map_server works
 /// meanwhile. Lossless: a keyframe waits for that answer, and keyframes are taken in exact order. Real time:
 /// nothing waits longer than kAnswerPatience, work is cut down while keyframes wait (LoadGovernor), and the
-/// IMU samples of a keyframe that was dropped all the same are bridged from the service's own. Restarted with a
-/// checkpoint it asks frame_builder for the keyframes since and goes on as if nothing had been (restart.cc).
+/// IMU samples of a keyframe that was dropped all the same are bridged from the service's own. Restarted with
+/// a checkpoint it asks frame_builder for the keyframes since and goes on as if nothing had been
+/// (restart.cc).
 class WindowOptimizer : public Service {
  public:
   struct Settings {
@@ -58,6 +59,8 @@ class WindowOptimizer : public Service {
   void OnKeyframe(const std::uint8_t* data, std::size_t size);
   void OnMapPoints(const std::uint8_t* data, std::size_t size);
   void OnImu(const std::uint8_t* data, std::size_t size);
+  void OnPoseHint(const std::uint8_t* data, std::size_t size);
+  void TakeHint();
   bool InOrder(SequenceCounter::Verdict verdict, const keyframe_t& message);
   void Queue(keyframe_t message);
   struct Waiting {
@@ -89,6 +92,7 @@ class WindowOptimizer : public Service {
   StatusReporter status_;
   SequenceCounter keyframes_;
   SequenceCounter imu_messages_;
+  SequenceCounter pose_hints_;
   Tracker tracker_;
   ImuHistory imu_;
   LoadGovernor governor_;  // real time only
@@ -107,7 +111,7 @@ class WindowOptimizer : public Service {
   std::optional<KeyframeCatchUp> catch_up_;  // until the keyframes since then are here
   Clock::time_point announced_;              // the checkpoint
   std::int64_t caught_up_ = -1;              // number of the newest of those keyframes
-  NavState live_;                         // where IMU-rate poses start from, real-time mode
+  NavState live_;                            // where IMU-rate poses start from, real-time mode
   ImuBias live_bias_;
   Utime live_time_ = 0;
   std::int64_t window_seq_ = 0, mode_seq_ = 0, pose_seq_ = 0, query_seq_ = 0;
@@ -121,6 +125,7 @@ class WindowOptimizer : public Service {
     std::future<std::pair<TrackerOutput, double>> result;  // with ms
   };
   std::optional<map_points_t> answer_;  // came meanwhile
+  std::optional<SE3> hint_;             // the same
   std::optional<Work> work_;
 };
 

@@ -130,7 +130,9 @@ void AddProcmanCommands(CLI::App* app) {
   auto o = std::make_shared<LogOptions>();
   CLI::App* logs = app->add_subcommand("logs", "Show what a command of a running pipeline says (PM_OUTPUT)");
   logs->add_option("command", o->command, "its id, see evit ps")->required();
-  logs->add_option("-n,--lines", o->lines, "lines of its log file")->capture_default_str()->check(CLI::NonNegativeNumber);
+  logs->add_option("-n,--lines", o->lines, "lines of its log file")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   logs->add_flag("-f,--follow", o->follow, "go on with what it says, until Ctrl-C");
   logs->add_option("--lcm-url", o->lcm_url, "Bus (default: that of the pipeline running here)");
   logs->callback([o] { Logs(*o); });

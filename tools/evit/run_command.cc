@@ -64,6 +64,9 @@ void AddRunCommand(CLI::App* app) {
                 "As fast as everything is used, bit-identical every time (default)")
       ->excludes(realtime);
   run->add_option("--speed", o->job.speed, "With --realtime: x times faster")->check(CLI::PositiveNumber);
+  run->add_option("--loops", o->job.loops,
+                  "With --realtime: play it so many times, and watch the memory (soak)")
+      ->check(CLI::PositiveNumber);
   run->add_option("--seconds", o->seconds, "A:B, play only this part of the log");
   run->add_option("--lcm-url", o->job.lcm_url,
                   "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
@@ -79,6 +82,7 @@ void AddRunCommand(CLI::App* app) {
     if (!o->seconds.empty()) job.seconds = ParseSeconds(o->seconds);
     if (job.config.empty()) job.config = ConfigFile("tracker.textproto");
     job.lossless = !o->realtime;
+    if (job.lossless && job.loops > 1) throw std::runtime_error("--loops needs --realtime");
     job.command = CommandLine();
     const int code = Run(job);
     if (code != 0) throw CLI::RuntimeError(code);

@@ -27,13 +27,15 @@ volatile std::sig_atomic_t g_stop = 0;
 void OnSignal(int /*signal*/) { g_stop = 1; }
 
 // The commands of one deputy; where the file knows only one, its.
-std::vector<ProcmanCommand> CommandsOf(const Deployment& deployment, const UpOptions& o, std::string* deputy) {
+std::vector<ProcmanCommand> CommandsOf(const Deployment& deployment, const UpOptions& o,
+                                       std::string* deputy) {
   std::set<std::string> deputies;
   for (const ProcmanCommand& command : deployment.commands) deputies.insert(command.deputy);
   std::string known;
   for (const std::string& name : deputies) known += (known.empty() ? "" : ", ") + name;
   if (o.deputy.empty() && deputies.size() != 1) {
-    throw std::runtime_error(o.file + " has commands of several deputies (" + known + "): say which with --deputy");
+    throw std::runtime_error(o.file + " has commands of several deputies (" + known +
+                             "): say which with --deputy");
   }
   *deputy = o.deputy.empty() ? *deputies.begin() : o.deputy;
   if (deputies.count(*deputy) == 0) {
@@ -109,15 +111,19 @@ void Up(const UpOptions& o) {
 
 void AddUpCommand(CLI::App* app) {
   auto o = std::make_shared<UpOptions>();
-  CLI::App* up = app->add_subcommand("up", "Run a procman deployment headless: starts, watches and stops its commands");
+  CLI::App* up =
+      app->add_subcommand("up", "Run a procman deployment headless: starts, watches and stops its commands");
   up->add_option("file", o->file, "procman file, either dialect, e.g. procman/evit.procman")->required();
   up->add_option("script", o->script, "script of it to run, e.g. replay or robot")->required();
   up->add_option("--deputy", o->deputy, "run this deputy's commands (default: the only one of the file)");
   up->add_option("--logs", o->logs, "folder for NAME.log and what restarts need")->default_val("evit-logs");
-  up->add_option("--lcm-url", o->lcm_url, "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
+  up->add_option("--lcm-url", o->lcm_url,
+                 "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
   up->footer(
-      "Commands see this environment; EVIT_CONFIG and EVIT_STATE are set where they are not. Their programs are\n"
-      "looked for beside evit, then on PATH. A command that dies is started again where its auto_respawn is true.");
+      "Commands see this environment; EVIT_CONFIG and EVIT_STATE are set where they are not. Their programs "
+      "are\n"
+      "looked for beside evit, then on PATH. A command that dies is started again where its auto_respawn is "
+      "true.");
   up->callback([o] { Up(*o); });
 }
 

@@ -171,8 +171,8 @@ void JoinNetworkOf(const RunningPipeline& pipeline) {
     const std::string why = std::strerror(errno);
     if (fd >= 0) close(fd);
     if (result != 0) {
-      throw std::runtime_error("cannot join the network of process " + std::to_string(pipeline.pid) + " (" + why +
-                               "): run this as the same user");
+      throw std::runtime_error("cannot join the network of process " + std::to_string(pipeline.pid) + " (" +
+                               why + "): run this as the same user");
     }
   }
 }

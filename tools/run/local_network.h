@@ -14,8 +14,8 @@ namespace evit {
 /// the remedy where the kernel forbids it.
 bool EnsureLocalMulticast(const std::string& url);
 
-/// A file that names this process while it lives, so that others (scripts/spy, evit ps) can join its namespace and
-/// find its logs: its process id, then the folder of its logs.
+/// A file that names this process while it lives, so that others (scripts/spy, evit ps) can join its
+/// namespace and find its logs: its process id, then the folder of its logs.
 class RunFile {
  public:
   explicit RunFile(const std::string& logs);
@@ -34,8 +34,8 @@ struct RunningPipeline {
 };
 std::optional<RunningPipeline> FindRunning();
 
-/// Moves this process into the network namespace of a running pipeline. Call before any thread or socket is made.
-/// Throws std::runtime_error where the kernel forbids it.
+/// Moves this process into the network namespace of a running pipeline. Call before any thread or socket is
+/// made. Throws std::runtime_error where the kernel forbids it.
 void JoinNetworkOf(const RunningPipeline& pipeline);
 
 }  // namespace evit

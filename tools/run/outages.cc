@@ -13,16 +13,19 @@ constexpr auto kInFlight = std::chrono::milliseconds(100);
 }  // namespace
 
 Outages::Outages(Bus* bus, const Channels& channels) {
-  bus->Subscribe(channels.window_state, [this](const std::string&, const std::uint8_t* data, std::size_t size) {
-    window_state_t message;
-    if (DecodeChecked(data, size, &message) && message.mode == tracker_mode_t::TRACKING) Add(Clock::now());
-  });
-  bus->Subscribe(channels.tracker_mode, [this](const std::string&, const std::uint8_t* data, std::size_t size) {
-    tracker_mode_t message;
-    if (DecodeChecked(data, size, &message)) {
-      AddAnswer(Clock::now(), message.keyframe_epoch, message.keyframe_seq);
-    }
-  });
+  bus->Subscribe(channels.window_state,
+                 [this](const std::string&, const std::uint8_t* data, std::size_t size) {
+                   window_state_t message;
+                   if (DecodeChecked(data, size, &message) && message.mode == tracker_mode_t::TRACKING)
+                     Add(Clock::now());
+                 });
+  bus->Subscribe(channels.tracker_mode,
+                 [this](const std::string&, const std::uint8_t* data, std::size_t size) {
+                   tracker_mode_t message;
+                   if (DecodeChecked(data, size, &message)) {
+                     AddAnswer(Clock::now(), message.keyframe_epoch, message.keyframe_seq);
+                   }
+                 });
 }
 
 void Outages::AddAnswer(Clock::time_point at, std::int64_t epoch, std::int64_t seq) {
@@ -34,7 +37,8 @@ void Outages::AddAnswer(Clock::time_point at, std::int64_t epoch, std::int64_t s
 std::int64_t Outages::KeyframesLostAfter(Clock::time_point since, Clock::time_point until) const {
   std::int64_t lost = 0;
   for (const Hole& hole : holes_) {
-    if (hole.at > since && hole.at <= std::min(until, since + std::chrono::seconds(2))) lost += hole.keyframes;
+    if (hole.at > since && hole.at <= std::min(until, since + std::chrono::seconds(2)))
+      lost += hole.keyframes;
   }
   return lost;
 }

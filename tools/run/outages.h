@@ -9,8 +9,8 @@
 
 namespace evit {
 
-/// Notes when poses come (WINDOW_STATE while tracking) and which keyframes were answered (TRACKER_MODE), to tell
-/// what a restart cost.
+/// Notes when poses come (WINDOW_STATE while tracking) and which keyframes were answered (TRACKER_MODE), to
+/// tell what a restart cost.
 class Outages {
  public:
   using Clock = std::chrono::steady_clock;
@@ -18,8 +18,8 @@ class Outages {
   /// `bus` must outlive this.
   Outages(Bus* bus, const Channels& channels);
 
-  /// Ms from `since` to the end of the longest time without a pose that begins within 100 ms after it. Where no
-  /// pose came any more: up to `until`, but two seconds at most.
+  /// Ms from `since` to the end of the longest time without a pose that begins within 100 ms after it. Where
+  /// no pose came any more: up to `until`, but two seconds at most.
   double MsAfter(Clock::time_point since, Clock::time_point until) const;
 
   /// Keyframes that nobody answered in that time.

@@ -17,9 +17,9 @@ class Pipeline {
     std::chrono::steady_clock::time_point at;
   };
 
-  /// Starts `services` in their order. `deputy`: its id on PM_INFO. `programs`: folder of the executables; `logs`:
-  /// folder for NAME.log, what each one says. `bus` must outlive this. Throws std::runtime_error where one cannot
-  /// be started.
+  /// Starts `services` in their order. `deputy`: its id on PM_INFO. `programs`: folder of the executables;
+  /// `logs`: folder for NAME.log, what each one says. `bus` must outlive this. Throws std::runtime_error
+  /// where one cannot be started.
   Pipeline(Bus* bus, const std::string& deputy, const std::vector<ProcmanCommand>& services,
            const std::string& programs, const std::string& logs);
 

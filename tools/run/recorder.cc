@@ -68,6 +68,12 @@ Trajectory Recorder::smoothed() const {
   return all;
 }
 
+void Recorder::StartOver() {
+  online_.clear();
+  left_.clear();
+  window_.clear();
+}
+
 double Recorder::progress() const {
   const auto it = statuses_.find("log_replay");
   return it == statuses_.end() ? 0 : it->second.progress;

@@ -33,6 +33,9 @@ class Recorder {
   /// Every keyframe's pose as it left the window; those still in it as they are now.
   Trajectory smoothed() const;
 
+  /// Forgets the trajectories: the log is played again.
+  void StartOver();
+
   const std::vector<ModeChange>& mode_changes() const { return mode_changes_; }
   const tracker_mode_t& mode() const { return mode_; }
   std::int64_t n_keyframes() const { return earlier_keyframes_ + mode_.keyframe_seq + 1; }

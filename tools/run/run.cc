@@ -10,15 +10,17 @@
 #include <stdexcept>
 #include <vector>
 
-#include "common/bus/codec.h"
 #include "common/bus/lcm_bus.h"
+#include "common/evaluation/trajectory_error.h"
 #include "common/service/runner.h"
 #include "tools/progress.h"
 #include "tools/run/latency.h"
 #include "tools/run/local_network.h"
+#include "tools/run/memory_log.h"
 #include "tools/run/outages.h"
 #include "tools/run/pipeline.h"
 #include "tools/run/recorder.h"
+#include "tools/run/remote.h"
 #include "tools/run/run_inputs.h"
 #include "tools/run/run_results.h"
 
@@ -50,8 +52,8 @@ std::vector<ProcmanCommand> Commands(const RunJob& job, const std::string& url, 
     return path;
   };
   std::vector<std::string> map_server{"map_server", "--map", job.map};
-  std::vector<std::string> optimizer{"window_optimizer", "--rig", job.rig, "--config", job.config,
-                                     "--initial-pose", PoseText(start)};
+  std::vector<std::string> optimizer{"window_optimizer", "--rig",          job.rig,        "--config",
+                                     job.config,         "--initial-pose", PoseText(start)};
   std::vector<std::string> builder{"frame_builder", "--rig", job.rig, "--config", job.config};
   std::vector<std::string> replay{"log_replay", "--log", job.log};
   if (job.seconds) {
@@ -73,7 +75,8 @@ std::vector<ProcmanCommand> Commands(const RunJob& job, const std::string& url, 
     command.id = words->front();
     command.exec = JoinCommandLine(*words);
     command.group = "evit";
-    // Lossless replay is in the middle of a conversation that counts messages: only map_server keeps out of it.
+    // Lossless replay is in the middle of a conversation that counts messages: only map_server keeps out of
+    // it.
     command.auto_respawn = !job.lossless || words == &map_server;
     command.stop_time_allowed = 2;
     commands.push_back(std::move(command));
@@ -84,7 +87,7 @@ std::vector<ProcmanCommand> Commands(const RunJob& job, const std::string& url, 
 /// Tells log_replay to begin once all services are there, and again until it obeys: UDP may lose an order.
 class StartSignal {
  public:
-  StartSignal(Bus* bus, std::string channel) : bus_(bus), channel_(std::move(channel)) {}
+  explicit StartSignal(Remote* remote) : remote_(remote) {}
 
   void Tick(const Recorder& recorder) {
     for (const char* name : {"map_server", "window_optimizer", "frame_builder", "log_replay"}) {
@@ -92,23 +95,15 @@ class StartSignal {
     }
     if (recorder.statuses().at("log_replay").state != "paused") return;
     if (sent_ && SecondsSince(sent_at_) < 0.5) return;
-    replay_control_t order{};
-    order.command = replay_control_t::RESUME;
-    order.epoch = getpid();
-    order.seq = seq_++;
-    std::vector<std::uint8_t> bytes;
-    EncodeTo(order, &bytes);
-    bus_->Publish(channel_, bytes.data(), bytes.size());
+    remote_->Resume();
     sent_ = true;
     sent_at_ = Clock::now();
   }
 
  private:
-  Bus* bus_;
-  std::string channel_;
+  Remote* remote_;
   bool sent_ = false;
   Clock::time_point sent_at_;
-  std::int64_t seq_ = 0;
 };
 
 void Show(const Recorder& recorder, ProgressBar* bar) {
@@ -127,14 +122,15 @@ void Show(const Recorder& recorder, ProgressBar* bar) {
 }
 
 // Until the run is over; returns how it ended.
-std::string WaitForEnd(const RunJob& job, Bus* bus, const Channels& channels, Recorder* recorder,
-                       Pipeline* pipeline) {
+std::string WaitForEnd(const RunJob& job, Bus* bus, Remote* remote, Recorder* recorder, Pipeline* pipeline,
+                       MemoryLog* memory) {
   ProgressBar bar("tracking");
-  StartSignal start(bus, channels.replay_control);
+  StartSignal start(remote);
   auto last_activity = Clock::now();
   while (g_interrupted == 0) {
     bus->Poll(20);
     pipeline->Watch();
+    memory->Tick();
     if (!job.lossless) start.Tick(*recorder);
     Show(*recorder, &bar);
     if (recorder->Finished()) return "finished";
@@ -147,6 +143,35 @@ std::string WaitForEnd(const RunJob& job, Bus* bus, const Channels& channels, Re
     if (silence > kStuck) FailStuck(*recorder, "the tracker has said nothing for 60 s");
   }
   return "interrupted";
+}
+
+// Plays the log again, from the pose it starts with.
+void PlayAgain(const SE3& start, Bus* bus, Remote* remote, Recorder* recorder) {
+  remote->Rewind();
+  recorder->StartOver();
+  const auto begin = Clock::now();
+  while (SecondsSince(begin) < 5 && (recorder->Finished() || recorder->progress() >= 1)) {
+    remote->HintPose(start);
+    bus->Poll(50);
+    if (SecondsSince(begin) > 1 && recorder->progress() >= 1) remote->Rewind();  // the first order got lost
+  }
+  remote->HintPose(start);
+}
+
+// All loops of the log; returns how it ended.
+std::string Play(const RunJob& job, const RunInputs& inputs, Bus* bus, Remote* remote, Recorder* recorder,
+                 Pipeline* pipeline, MemoryLog* memory) {
+  for (int loop = 1;; ++loop) {
+    const std::string ended = WaitForEnd(job, bus, remote, recorder, pipeline, memory);
+    if (job.loops > 1) {
+      const TrajectoryError error = AbsoluteError(inputs.truth, recorder->online(), Alignment::kNone);
+      std::printf("loop %d: %zu poses, ATE %.2f cm, %s\n", loop, recorder->online().size(),
+                  100 * error.position_rmse, recorder->mode().reason.c_str());
+      std::fflush(stdout);
+    }
+    if (ended != "finished" || loop >= job.loops) return ended;
+    PlayAgain(inputs.start, bus, remote, recorder);
+  }
 }
 
 }  // namespace
@@ -173,22 +198,26 @@ int Run(const RunJob& job) {
   const Channels channels(job.prefix);
   Recorder recorder(bus.get(), channels);
   std::unique_ptr<LatencyProbe> latency;
-  if (!job.lossless && job.speed == 1) latency = std::make_unique<LatencyProbe>(bus.get(), channels);
+  if (!job.lossless && job.speed == 1 && job.loops == 1)
+    latency = std::make_unique<LatencyProbe>(bus.get(), channels);
   const auto begin = Clock::now();
   const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   Outages outages(bus.get(), channels);
   Pipeline pipeline(bus.get(), "evit" + job.prefix, Commands(job, url, inputs.start), programs, job.out);
   RunOutcome outcome;
   outcome.begin = begin;
-  outcome.ended = WaitForEnd(job, bus.get(), channels, &recorder, &pipeline);
+  Remote remote(bus.get(), channels);
+  MemoryLog memory(&pipeline);
+  outcome.ended = Play(job, inputs, bus.get(), &remote, &recorder, &pipeline, &memory);
   outcome.end = Clock::now();
   outcome.wall_s = SecondsSince(begin);
   outcome.outages = &outages;
   outcome.latency = latency.get();
   pipeline.Stop();
   for (const char* name : {kCheckpoint, kPosition}) std::filesystem::remove(job.out + "/" + name);
-  while (bus->Poll(50) > 0) {                        // each service's last STATUS
+  while (bus->Poll(50) > 0) {  // each service's last STATUS
   }
+  if (job.loops > 1) memory.Write(job.out);
   return WriteResults(job, inputs, recorder, pipeline, outcome);
 }
 

@@ -17,6 +17,7 @@ struct RunJob {
   std::string initial_from;           // else: TUM file to take it from, at the start of the log
   bool lossless = true;
   double speed = 1;                                  // real-time mode
+  int loops = 1;                                     // real-time mode: played so often
   std::optional<std::pair<double, double>> seconds;  // part of the log
   std::string lcm_url, prefix;
   std::string command;  // for the report

@@ -62,7 +62,8 @@ void FillRestarts(const Pipeline& pipeline, const RunOutcome& outcome, report::R
     restart->set_service(deaths[k].service);
     restart->set_at_s(std::chrono::duration<double>(deaths[k].at - outcome.begin).count());
     restart->set_ms_without_poses(outcome.outages->MsAfter(deaths[k].at, until));
-    restart->set_keyframes_lost(static_cast<double>(outcome.outages->KeyframesLostAfter(deaths[k].at, until)));
+    restart->set_keyframes_lost(
+        static_cast<double>(outcome.outages->KeyframesLostAfter(deaths[k].at, until)));
   }
 }
 
@@ -154,8 +155,7 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
               report.keyframes(), report.keyframe_rate_hz(), report.sequence_s(), report.wall_s(),
               report.real_time_factor(), report.cpu_ms_per_keyframe());
   if (outcome.latency != nullptr) PrintLatency(report);
-  std::printf("%.0f messages lost, services restarted %zu times\n", Lost(report),
-              pipeline.deaths().size());
+  std::printf("%.0f messages lost, services restarted %zu times\n", Lost(report), pipeline.deaths().size());
   std::printf("results: %s/{trajectory.tum,smoothed.tum,report.json,trajectory.png}\n", job.out.c_str());
   std::fflush(stdout);
   if (report.keyframes() == 0 || report.final_mode() != "TRACKING") {

@@ -1,0 +1,51 @@
+#include "tools/run/memory_log.h"
+
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+#include "procman/proc_usage.h"
+#include "tools/run/canvas.h"
+
+namespace evit {
+
+MemoryLog::MemoryLog(const Pipeline* pipeline) : pipeline_(pipeline), mb_(pipeline->processes().size()) {}
+
+void MemoryLog::Tick() {
+  const Clock::time_point now = Clock::now();
+  if (now - last_ < std::chrono::seconds(1)) return;
+  last_ = now;
+  seconds_.push_back(std::chrono::duration<double>(now - begin_).count());
+  for (std::size_t k = 0; k < mb_.size(); ++k) {
+    const ManagedProcess& process = *pipeline_->processes()[k];
+    const ProcessUsage usage = process.running() ? ReadProcessUsage(process.pid()) : ProcessUsage();
+    mb_[k].push_back(static_cast<double>(usage.rss_bytes) / (1 << 20));
+  }
+}
+
+void MemoryLog::Write(const std::string& folder) const {
+  const cv::Scalar colors[] = {{60, 60, 210}, {70, 150, 50}, {190, 110, 30}, {150, 50, 130}};
+  std::ofstream csv(folder + "/memory.csv");
+  csv << "seconds";
+  Chart chart{"physical memory of each service", "time [s]", "[MB]", {}, false, true};
+  for (std::size_t k = 0; k < mb_.size(); ++k) {
+    const std::string& name = pipeline_->processes()[k]->command().id;
+    csv << ',' << name << "_mb";
+    chart.series.push_back({name, colors[k % 4], seconds_, mb_[k], true, 0});
+  }
+  csv << '\n';
+  for (std::size_t i = 0; i < seconds_.size(); ++i) {
+    csv << seconds_[i];
+    for (const auto& values : mb_) csv << ',' << values[i];
+    csv << '\n';
+  }
+  csv.close();
+  if (!csv) throw std::runtime_error(folder + "/memory.csv: cannot be written");
+  cv::Mat image(500, 1100, CV_8UC3, cv::Scalar(255, 255, 255));
+  chart.Draw(&image, {10, 10, 1080, 480});
+  if (!cv::imwrite(folder + "/memory.png", image)) {
+    throw std::runtime_error(folder + "/memory.png: cannot be written");
+  }
+}
+
+}  // namespace evit
