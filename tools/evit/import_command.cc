@@ -52,6 +52,7 @@ void AddImportCommand(CLI::App* app) {
       app->add_subcommand("import", "Turn a recorded sequence into an LCM log")->require_subcommand(1);
   AddImportVector(import);
   AddImportRpg(import);
+  AddImportBag(import);
 }
 
 }  // namespace evit

@@ -11,6 +11,7 @@ namespace evit {
 
 void AddImportVector(CLI::App* import);
 void AddImportRpg(CLI::App* import);
+void AddImportBag(CLI::App* import);
 
 struct ImportOptions {
   std::string out, transform, seconds;
