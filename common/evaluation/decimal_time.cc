@@ -6,7 +6,7 @@
 
 namespace evit {
 
-bool ParseDecimalSeconds(const std::string& text, Utime* time) {
+bool ParseDecimalSeconds(std::string_view text, Utime* time) {
   std::size_t k = 0;
   const bool negative = !text.empty() && text[0] == '-';
   if (negative || (!text.empty() && text[0] == '+')) ++k;

@@ -14,6 +14,9 @@ std::pair<double, double> ParseSeconds(const std::string& text);
 /// 16 numbers, row-major 4x4, a rigid transformation.
 SE3 ParseTransform(const std::string& option, const std::string& text);
 
+/// "x y z qx qy qz qw": m and a unit quaternion.
+SE3 ParsePose(const std::string& option, const std::string& text);
+
 /// A file below the project's config/ folder: where this program was built from, or beside its installation.
 std::string ConfigFile(const std::string& name);
 

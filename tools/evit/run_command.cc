@@ -12,19 +12,6 @@
 namespace evit {
 namespace {
 
-SE3 ParsePose(const std::string& text) {
-  double v[7];
-  char rest = 0;
-  const int n = std::sscanf(text.c_str(), " %lf %lf %lf %lf %lf %lf %lf %c", v, v + 1, v + 2, v + 3, v + 4,
-                            v + 5, v + 6, &rest);
-  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
-  if (n != 7 || !(std::abs(q.norm() - 1) < 1e-2)) {
-    throw std::runtime_error("--initial-pose \"" + text +
-                             "\": seven numbers are wanted, x y z (m) and a unit quaternion qx qy qz qw");
-  }
-  return {q.normalized(), {v[0], v[1], v[2]}};
-}
-
 // This process's command line, as it could be typed again.
 std::string CommandLine() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
@@ -76,7 +63,7 @@ void AddRunCommand(CLI::App* app) {
     RunJob& job = o->job;
     if (o->pose.empty() && o->from.empty())
       throw std::runtime_error("--initial-pose or --initial-from is wanted");
-    if (!o->pose.empty()) job.initial_pose = ParsePose(o->pose);
+    if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
     job.initial_from = o->from;
     if (job.truth.empty()) job.truth = o->from;
     if (!o->seconds.empty()) job.seconds = ParseSeconds(o->seconds);

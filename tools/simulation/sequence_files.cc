@@ -1,15 +1,11 @@
 #include "tools/simulation/sequence_files.h"
 
-#include <google/protobuf/text_format.h>
-
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
-
-#include "common/config/rig.pb.h"
 
 namespace evit {
 namespace {
@@ -28,15 +24,6 @@ void WriteFile(const std::string& path, const std::string& text) {
   file << text;
   file.close();
   if (!file) throw std::runtime_error("cannot write " + path);
-}
-
-void SetTransform(const SE3& T, config::Transform* out) {
-  Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
-  m.topLeftCorner<3, 3>() = T.R();
-  m.topRightCorner<3, 1>() = T.p;
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) out->add_m(m(row, column));
-  }
 }
 
 }  // namespace
@@ -103,34 +90,6 @@ void WriteTruth(const std::string& path, const Motion& motion, const SimulatedIm
   Trajectory truth;
   for (const ImuSample& sample : imu.samples) truth.push_back({sample.t, motion.spline.Pose(sample.t)});
   WriteTum(path, truth);
-}
-
-void WriteRigFile(const std::string& path, const Rig& rig, const std::string& name) {
-  config::Rig out;
-  out.set_name(name);
-  config::Camera* camera = out.mutable_camera();
-  camera->set_model(CameraModelName(rig.camera.model));
-  camera->set_width(rig.camera.width);
-  camera->set_height(rig.camera.height);
-  camera->set_fx(rig.camera.fx);
-  camera->set_fy(rig.camera.fy);
-  camera->set_cx(rig.camera.cx);
-  camera->set_cy(rig.camera.cy);
-  const int n = rig.camera.model == Camera::Model::kPlumbBob ? 5 : 4;
-  for (int i = 0; i < n; ++i) camera->add_distortion(rig.camera.distortion[i]);
-  camera->set_time_offset_us(static_cast<double>(rig.camera_time_offset));
-  config::Imu* imu = out.mutable_imu();
-  imu->set_rate_hz(rig.imu_rate_hz);
-  imu->set_gyro_noise_density(rig.imu_noise.gyro_density);
-  imu->set_accel_noise_density(rig.imu_noise.accel_density);
-  imu->set_gyro_random_walk(rig.imu_noise.gyro_random_walk);
-  imu->set_accel_random_walk(rig.imu_noise.accel_random_walk);
-  SetTransform(rig.T_body_camera, out.mutable_t_body_camera());
-  SetTransform(rig.T_marker_body, out.mutable_t_marker_body());
-  out.set_gravity(rig.gravity);
-  std::string text;
-  google::protobuf::TextFormat::PrintToString(out, &text);
-  WriteFile(path, "# The rig that was simulated (evit simulate).\n" + text);
 }
 
 }  // namespace evit

@@ -32,7 +32,6 @@ void WriteImuFile(const std::string& path, const SimulatedImu& imu);
 void WriteGroundTruthFile(const std::string& path, const std::string& name, const Motion& motion,
                           const Rig& rig);
 void WriteTruth(const std::string& path, const Motion& motion, const SimulatedImu& imu);
-void WriteRigFile(const std::string& path, const Rig& rig, const std::string& name);
 void WriteReport(const std::string& path, const SimulationSettings& settings,
                  const SimulationSummary& summary);
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "common/config/rig_file.h"
 #include "tools/simulation/preview.h"
 #include "tools/simulation/room.h"
 #include "tools/simulation/sequence_files.h"
@@ -63,7 +64,7 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
   WriteImuFile(folder.File(base + ".imu.txt"), imu);
   WriteGroundTruthFile(folder.File(base + ".gt.txt"), summary.name, motion, rig);
   WriteTruth(folder.File("truth.tum"), motion, imu);
-  WriteRigFile(folder.File("rig.textproto"), rig, rig_name);
+  WriteRig(folder.File("rig.textproto"), rig, rig_name, "The rig that was simulated (evit simulate).");
   summary.n_imu = imu.samples.size();
   summary.first_bias = imu.biases.front();
   summary.last_bias = imu.biases.back();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ class StreamWriter {
   StreamWriter(const std::string& path, std::int64_t epoch, std::vector<ImuSample> imu, Trajectory truth);
 
   void AddEvent(Utime t, std::uint16_t x, std::uint16_t y, std::uint8_t polarity);
-  /// Writes what is left, up to time `end`.
+  /// Writes what is left, up to time `end`. At least one event has been added.
   void Close(Utime end);
 
   std::int64_t n_packets() const { return n_packets_; }
@@ -37,7 +38,7 @@ class StreamWriter {
   Trajectory truth_;
   std::size_t next_imu_ = 0, next_truth_ = 0;
   EventArray packet_;
-  Utime known_ = 0;  // events are written up to here
+  std::optional<Utime> known_;  // events are written up to here
   std::int64_t n_packets_ = 0;
   std::vector<std::uint8_t> buffer_;
 };

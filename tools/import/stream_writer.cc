@@ -1,4 +1,4 @@
-#include "tools/vector/stream_writer.h"
+#include "tools/import/stream_writer.h"
 
 #include <algorithm>
 #include <utility>
@@ -56,10 +56,10 @@ void StreamWriter::WriteOthers(Utime until) {
 void StreamWriter::FlushPacket() {
   if (packet_.size() == 0) return;
   known_ = packet_.t.back();
-  WriteOthers(known_);
+  WriteOthers(*known_);
   for (std::size_t begin = 0; begin < packet_.size(); ++n_packets_) {
     begin = EncodePacket(packet_, begin, epoch_, n_packets_, &buffer_);
-    log_.Write(known_, channels_.events, buffer_.data(), buffer_.size());
+    log_.Write(*known_, channels_.events, buffer_.data(), buffer_.size());
   }
   packet_.clear();
 }
@@ -73,16 +73,16 @@ void StreamWriter::WriteWatermark(Utime t) {
 void StreamWriter::AddEvent(Utime t, std::uint16_t x, std::uint16_t y, std::uint8_t polarity) {
   if (packet_.size() > 0 && (packet_.size() >= kPacketEvents || t - packet_.t.front() >= kPacketSpan))
     FlushPacket();
-  if (packet_.size() == 0 && known_ > 0) {
-    while (t - known_ > kSilence) WriteWatermark(known_ + kSilence);
+  if (packet_.size() == 0 && known_) {
+    while (t - *known_ > kSilence) WriteWatermark(*known_ + kSilence);
   }
   packet_.push_back(t, x, y, polarity);
 }
 
 void StreamWriter::Close(Utime end) {
   FlushPacket();
-  while (known_ + kSilence < end) WriteWatermark(known_ + kSilence);
-  if (known_ < end) WriteWatermark(end);
+  while (*known_ + kSilence < end) WriteWatermark(*known_ + kSilence);
+  if (*known_ < end) WriteWatermark(end);
   WriteOthers(end);
   log_.Close();
 }

@@ -1,0 +1,48 @@
+#include "common/config/rig_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "common/config/config.h"
+
+namespace evit {
+namespace {
+
+TEST(RigFile, ReadsBackAsItWasWritten) {
+  const std::string path = ::testing::TempDir() + "/rig_" + std::to_string(getpid()) + ".textproto";
+  Rig rig = LoadRig(EVIT_SOURCE_DIR "/config/vector/rig.textproto");
+  rig.camera_time_offset = -2'400;
+  for (const auto model : {Camera::Model::kPlumbBob, Camera::Model::kEquidistant}) {
+    rig.camera.model = model;
+    WriteRig(path, rig, "a \"quoted\" \\ name", "first line\nsecond line");
+    const Rig back = LoadRig(path);
+    EXPECT_EQ(back.camera.model, model);
+    EXPECT_EQ(back.camera.width, rig.camera.width);
+    EXPECT_EQ(back.camera.height, rig.camera.height);
+    EXPECT_EQ(back.camera.fx, rig.camera.fx);
+    EXPECT_EQ(back.camera.fy, rig.camera.fy);
+    EXPECT_EQ(back.camera.cx, rig.camera.cx);
+    EXPECT_EQ(back.camera.cy, rig.camera.cy);
+    EXPECT_EQ(back.camera.distortion, rig.camera.distortion);
+    EXPECT_EQ(back.camera_time_offset, -2'400);
+    EXPECT_EQ(back.imu_rate_hz, rig.imu_rate_hz);
+    EXPECT_EQ(back.imu_noise.gyro_density, rig.imu_noise.gyro_density);
+    EXPECT_EQ(back.imu_noise.accel_density, rig.imu_noise.accel_density);
+    EXPECT_EQ(back.imu_noise.gyro_random_walk, rig.imu_noise.gyro_random_walk);
+    EXPECT_EQ(back.imu_noise.accel_random_walk, rig.imu_noise.accel_random_walk);
+    EXPECT_EQ(back.imu_noise.gyro_range, rig.imu_noise.gyro_range);
+    EXPECT_EQ(back.imu_noise.accel_range, rig.imu_noise.accel_range);
+    EXPECT_TRUE(back.T_body_camera.R().isApprox(rig.T_body_camera.R(), 1e-12));
+    EXPECT_EQ(back.T_body_camera.p, rig.T_body_camera.p);
+    EXPECT_TRUE(back.T_marker_body.R().isApprox(rig.T_marker_body.R(), 1e-12));
+    EXPECT_EQ(back.T_marker_body.p, rig.T_marker_body.p);
+    EXPECT_EQ(back.gravity, rig.gravity);
+  }
+  std::filesystem::remove(path);
+  EXPECT_THROW(WriteRig("/no/such/rig.textproto", rig, "", ""), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace evit

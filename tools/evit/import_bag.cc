@@ -1,0 +1,39 @@
+#include <memory>
+
+#include "common/config/config.h"
+#include "tools/bag/bag_import.h"
+#include "tools/evit/import_options.h"
+
+namespace evit {
+
+void AddImportBag(CLI::App* import) {
+  struct Options {
+    ImportOptions shared;
+    BagImport job;
+    std::string rig;
+  };
+  auto o = std::make_shared<Options>();
+  BagImport& job = o->job;
+  CLI::App* bag =
+      import->add_subcommand("bag", "ROS 1 bags: dvs_msgs or prophesee_event_msgs, Imu, PoseStamped");
+  bag->add_option("FILE", job.files, "Bags of one recording; several are merged by time")->required();
+  bag->add_option("--rig", o->rig,
+                  "Calibration; its T_marker_body turns the truth's body into the IMU's, e.g. for VECtor")
+      ->required();
+  o->shared.AddTo(bag);
+  bag->add_option("--events-topic", job.events_topic, "EventArray to take (default: the only one)");
+  bag->add_option("--imu-topic", job.imu_topic, "sensor_msgs/Imu to take (default: the only one)");
+  bag->add_option("--truth-topic", job.truth_topic,
+                  "geometry_msgs/PoseStamped to take as truth (default: the only one)");
+  bag->footer(
+      "Times are those in the messages. Events, samples and poses that are out of order, not finite or\n"
+      "outside the sensor are counted and left out.");
+  bag->callback([o] {
+    o->shared.Apply(&o->job);
+    o->job.rig = LoadRig(o->rig);
+    RunImport(o->job.files.front(), o->job, "geometry_msgs/PoseStamped",
+              [&](const auto& progress) { return ImportBag(o->job, progress); });
+  });
+}
+
+}  // namespace evit

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "tools/import/import_log.h"
+
+/// What the subcommands of `evit import`, one per source, share.
+namespace evit {
+
+void AddImportVector(CLI::App* import);
+void AddImportRpg(CLI::App* import);
+void AddImportBag(CLI::App* import);
+
+struct ImportOptions {
+  std::string out, transform, seconds;
+
+  void AddTo(CLI::App* source);
+  /// Throws std::runtime_error naming the option.
+  void Apply(ImportTarget* target) const;
+};
+
+/// Does the work under a progress bar, then prints the summary. `no_truth`: where truth was looked for in
+/// vain.
+void RunImport(const std::string& label, const ImportTarget& target, const std::string& no_truth,
+               const std::function<ImportSummary(const std::function<void(double)>&)>& work);
+
+}  // namespace evit

@@ -1,0 +1,63 @@
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <tuple>
+
+#include "tools/evit/import_options.h"
+#include "tools/evit/options.h"
+#include "tools/rpg/rpg_import.h"
+
+namespace evit {
+namespace {
+
+void ParseSize(const std::string& text, RpgImport* job) {
+  char rest = 0;
+  const int n = std::sscanf(text.c_str(), "%dx%d%c", &job->width, &job->height, &rest);
+  const auto possible = [](int pixels) { return pixels >= 16 && pixels <= 8192; };
+  if (n != 2 || !possible(job->width) || !possible(job->height))
+    throw std::runtime_error("--size " + text + ": WxH is wanted, 16 to 8192 pixels each, e.g. 346x260");
+}
+
+}  // namespace
+
+void AddImportRpg(CLI::App* import) {
+  struct Options {
+    ImportOptions shared;
+    RpgImport job;
+    std::string size, pose;
+  };
+  auto o = std::make_shared<Options>();
+  RpgImport& job = o->job;
+  CLI::App* rpg = import->add_subcommand("rpg", "A folder in the text format of RPG's event camera dataset");
+  rpg->add_option("DIR", job.folder,
+                  "Folder with events.txt, imu.txt, groundtruth.txt (if known), calib.txt (for --rig-out)")
+      ->required();
+  o->shared.AddTo(rpg);
+  rpg->add_option("--size", o->size, "WxH of the sensor in pixels (default: 240x180, DAVIS240)");
+  rpg->add_option("--t-body-camera", o->pose,
+                  "Camera in the body (IMU) frame: \"x y z qx qy qz qw\" (default: one frame)");
+  rpg->add_flag("--truth-of-body", job.truth_of_body,
+                "groundtruth.txt tells of the body (IMU); without it, of the camera");
+  auto* rig = rpg->add_option("--rig-out", job.rig_out, "Rig file to write, from calib.txt and what follows");
+  ImuNoise& noise = job.imu_noise;
+  for (const auto& [name, value, text] :
+       {std::tuple("--gyro-noise", &noise.gyro_density, "Gyro noise density, rad/s/sqrt(Hz)"),
+        std::tuple("--accel-noise", &noise.accel_density, "Accelerometer noise density, m/s^2/sqrt(Hz)"),
+        std::tuple("--gyro-walk", &noise.gyro_random_walk, "Gyro bias random walk, rad/s^2/sqrt(Hz)"),
+        std::tuple("--accel-walk", &noise.accel_random_walk,
+                   "Accelerometer bias random walk, m/s^3/sqrt(Hz)")}) {
+    rpg->add_option(name, *value, text)->capture_default_str()->check(CLI::PositiveNumber)->needs(rig);
+  }
+  rpg->footer(
+      "Noise: the defaults are the MPU6150's, in the DAVIS240C. Events, samples and poses that are out of\n"
+      "order, not finite or outside the sensor are counted and left out.");
+  rpg->callback([o] {
+    o->shared.Apply(&o->job);
+    if (!o->size.empty()) ParseSize(o->size, &o->job);
+    if (!o->pose.empty()) o->job.T_body_camera = ParsePose("--t-body-camera", o->pose);
+    RunImport(o->job.folder, o->job, "groundtruth.txt",
+              [&](const auto& progress) { return ImportRpg(o->job, progress); });
+  });
+}
+
+}  // namespace evit

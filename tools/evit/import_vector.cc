@@ -1,0 +1,33 @@
+#include <memory>
+
+#include "common/config/config.h"
+#include "tools/evit/import_options.h"
+#include "tools/evit/options.h"
+#include "tools/vector/sequence_import.h"
+
+namespace evit {
+
+void AddImportVector(CLI::App* import) {
+  struct Options {
+    ImportOptions shared;
+    std::string folder, name, rig;
+  };
+  auto o = std::make_shared<Options>();
+  CLI::App* vector = import->add_subcommand("vector", "A sequence in the VECtor benchmark's own files");
+  vector->add_option("DIR", o->folder, "Folder with NAME1.synced.left_event.hdf5, .imu.txt and .gt.txt")
+      ->required();
+  vector->add_option("--sequence", o->name, "NAME, e.g. desk_normal")->required();
+  vector->add_option("--rig", o->rig, "Calibration (default: config/vector/rig.textproto)");
+  o->shared.AddTo(vector);
+  vector->callback([o] {
+    SequenceImport job;
+    o->shared.Apply(&job);
+    job.folder = o->folder;
+    job.name = o->name;
+    job.rig = LoadRig(o->rig.empty() ? ConfigFile("vector/rig.textproto") : o->rig);
+    RunImport(job.name, job, job.name + "1.synced.gt.txt",
+              [&](const auto& progress) { return ImportSequence(job, progress); });
+  });
+}
+
+}  // namespace evit
