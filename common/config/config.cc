@@ -140,6 +140,7 @@ config::Tracker LoadTracker(const std::string& path) {
           "surface.truncation: 0 to 254 grey levels are wanted");
   Require(s.blur_sigma_px() >= 0 && s.blur_sigma_px() <= 20, path,
           "surface.blur_sigma_px: 0 to 20 are wanted");
+  Require(s.lag_px() >= 0 && s.lag_px() <= 5, path, "surface.lag_px: 0 to 5 are wanted");
   const config::Points& p = c.points();
   Require(p.max_active() >= 100 && p.max_active() <= 20'000, path,
           "points.max_active: 100 to 20000 are wanted");
@@ -159,6 +160,8 @@ config::Tracker LoadTracker(const std::string& path) {
   positive(c.bootstrap().max_duration_s(), "bootstrap.max_duration_s");
   positive(c.bootstrap().max_gyro_bias(), "bootstrap.max_gyro_bias");
   positive(c.bootstrap().max_accel_bias(), "bootstrap.max_accel_bias");
+  Require(c.bootstrap().min_contrast() >= 0 && c.bootstrap().min_contrast() < 1, path,
+          "bootstrap.min_contrast: 0 to 1 is wanted");
   Require(c.failure().min_contrast() >= 0 && c.failure().min_contrast() < 1, path,
           "failure.min_contrast: 0 to 1 is wanted");
   positive(c.failure().max_coast_s(), "failure.max_coast_s");

@@ -96,7 +96,7 @@ TEST_F(ConfigTest, WrongTypesAndValues) {
   ExpectRefused(LoadRig, Edited(rig, "  m: [0, 0, 0, 1]\n}", "}"), {"T_body_camera.m", "16 numbers", "12"});
   ExpectRefused(LoadRig, Edited(rig, "gravity: 9.81", "gravity: 981"), {"gravity"});
   ExpectRefused(LoadTracker, Edited(tracker, "kind: SYMMETRIC", "kind: ACAUSAL"), {"ACAUSAL"});
-  ExpectRefused(LoadTracker, Edited(tracker, "image_sigma: 50", "image_sigma: 0"), {"window.image_sigma"});
+  ExpectRefused(LoadTracker, Edited(tracker, "image_sigma: 80", "image_sigma: 0"), {"window.image_sigma"});
   ExpectRefused(LoadTracker, Edited(tracker, "size: 5 ", "size: 1 "), {"window.size"});
   ExpectRefused(LoadTracker, Edited(tracker, "min_decay_ms: 2 ", "min_decay_ms: 20"), {"min_decay_ms"});
 }

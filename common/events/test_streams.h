@@ -44,6 +44,7 @@ inline config::Tracker SmallConfig() {
   s.set_split_polarity(false);
   s.set_support_filter(true);
   s.set_hot_pixel_rate_hz(100);
+  s.set_lag_px(0);
   return config;
 }
 

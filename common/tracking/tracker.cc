@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/tracking/event_lag.h"
 #include "common/tracking/image_speed.h"
 #include "common/tracking/text.h"
 
@@ -123,9 +124,15 @@ void Tracker::AddVisible(const std::vector<std::int32_t>& ids, const std::vector
   active_.Merge(ids, points);
 }
 
-bool Tracker::Aligned(const AlignmentQuality& quality) const {
-  return quality.n_points >= static_cast<int>(kMinPoints) &&
-         quality.contrast() >= config_.failure().min_contrast();
+// Points for a keyframe that is expected there, where its events show them.
+AlignmentPoints Tracker::SamplePoints(const BodyState& predicted, int count, std::int64_t seq) const {
+  return WhereEventsShow(alignment_,
+                         active_.Sample(predicted.T_world_body, count, static_cast<std::uint64_t>(seq)),
+                         predicted.T_world_body, predicted.velocity, rate_, config_.surface().lag_px());
+}
+
+bool Tracker::Aligned(const AlignmentQuality& quality, double min_contrast) {
+  return quality.n_points >= static_cast<int>(kMinPoints) && quality.contrast() >= min_contrast;
 }
 
 void Tracker::Finish(const AlignmentPoints& points, TrackerOutput* out) const {

@@ -98,8 +98,9 @@ class Tracker {
   bool ReadyToBootstrap() const;
   bool TryBootstrap();
   BodyState Predict(const KeyframeInput& keyframe) const;
+  AlignmentPoints SamplePoints(const BodyState& predicted, int count, std::int64_t seq) const;
   VisibilityQuery QueryFrom(const SE3& T_map_body) const;
-  bool Aligned(const AlignmentQuality& quality) const;
+  static bool Aligned(const AlignmentQuality& quality, double min_contrast);
   void SetMode(TrackerMode mode, std::string reason);
   void Restart(const SE3& T_map_body, std::string reason);
   void Finish(const AlignmentPoints& points, TrackerOutput* out) const;

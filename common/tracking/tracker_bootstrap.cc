@@ -60,8 +60,9 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, bool follows, Trac
     predicted.q = (state_.T_world_body.q * imu->delta().gamma).normalized();
     predicted.p = state_.T_world_body.p + imu->dt() * state_.velocity;
   }
-  AlignmentPoints points =
-      active_.Sample(predicted, config_.points().per_keyframe(), static_cast<std::uint64_t>(keyframe.seq));
+  BodyState here = state_;
+  here.T_world_body = predicted;
+  AlignmentPoints points = SamplePoints(here, config_.points().per_keyframe(), keyframe.seq);
   const StartSigma& sigma = following ? kFollowSigma : kStartSigma;
   const LocalizerResult fit =
       Localize(alignment_, *field, points, predicted, sigma, following ? kFollowLevels : kStartLevels);
@@ -71,7 +72,7 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, bool follows, Trac
   // knows the turn between two frames far better than any frame does.
   const bool plausible = (fit.T_world_body.p - predicted.p).norm() < 4 * sigma.position &&
                          AngularDistance(fit.T_world_body.q, predicted.q) < 4 * sigma.rotation;
-  if (!plausible || !Aligned(fit.quality)) {
+  if (!plausible || !Aligned(fit.quality, config_.bootstrap().min_contrast())) {
     Refuse(points.size());
     return;
   }

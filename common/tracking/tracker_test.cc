@@ -27,8 +27,8 @@ config::Tracker Config() {
       b->set_max_duration_s(2);
   b->set_max_gyro_bias(0.1), b->set_max_accel_bias(0.6);
   auto* f = c.mutable_failure();
-  f->set_min_contrast(0.15), f->set_max_coast_s(0.3), f->set_max_position_sigma_m(0.2), f->set_max_speed(6),
-      f->set_max_gyro_bias(0.2);
+  c.mutable_bootstrap()->set_min_contrast(0.15), f->set_min_contrast(0.15), f->set_max_coast_s(0.3),
+      f->set_max_position_sigma_m(0.2), f->set_max_speed(6), f->set_max_gyro_bias(0.2);
   f->set_max_accel_bias(1.5), f->set_max_imu_gap_ms(200);
   return c;
 }

@@ -16,9 +16,8 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
   node.field = std::make_shared<SurfaceField>(keyframe.surface, 1);
   const bool eventful = keyframe.n_events >= config_.keyframes().min_events();
   if (eventful) {
-    node.points = active_.Sample(node.state.T_world_body,
-                                 static_cast<int>(point_share_ * config_.points().per_keyframe()),
-                                 static_cast<std::uint64_t>(keyframe.seq));
+    node.points = SamplePoints(node.state, static_cast<int>(point_share_ * config_.points().per_keyframe()),
+                               keyframe.seq);
   }
   const std::size_t n_points = node.points.size();
   node.imu = std::make_shared<Preintegration>(keyframe.imu, state_.bias, rig_.imu_noise);
@@ -35,7 +34,7 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
     coasting = "no events";
   } else if (n_points < kMinPoints) {
     coasting = "no map points in view";
-  } else if (!Aligned(out->quality)) {
+  } else if (!Aligned(out->quality, config_.failure().min_contrast())) {
     coasting = "the map does not lie on the events";
   }
   if (!coasting.empty()) window_.DropNewestAlignment(before);

@@ -15,7 +15,8 @@ class MemoryLog {
 
   void Tick();  // call often
 
-  /// FOLDER/memory.csv (seconds, MB of each service) and memory.png. Throws std::runtime_error naming the file.
+  /// FOLDER/memory.csv (seconds, MB of each service) and memory.png. Throws std::runtime_error naming the
+  /// file.
   void Write(const std::string& folder) const;
 
  private:

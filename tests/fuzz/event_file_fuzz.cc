@@ -1,0 +1,17 @@
+// VECtor's HDF5 event files.
+#include <stdexcept>
+
+#include "tests/fuzz/temporary_file.h"
+#include "tools/vector/event_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    const evit::fuzz::TemporaryFile file(data, size);
+    evit::EventFileReader reader(file.path());
+    evit::EventArray events;
+    for (int k = 0; k < 10 && reader.Read(10'000, &events) > 0; ++k) {
+    }
+  } catch (const std::runtime_error&) {
+  }
+  return 0;
+}

@@ -1,0 +1,49 @@
+// Deployment files, their command lines, and two small languages: LCM URLs and EVIT_BUS_FAULTS. The first byte chooses.
+#include <stdexcept>
+
+#include "common/bus/faulty_bus.h"
+#include "common/bus/lcm_url.h"
+#include "procman/command_line.h"
+#include "procman/deployment.h"
+
+namespace {
+
+void Deployment(const std::string& text) {
+  const evit::Deployment d = evit::ParseDeployment(text, "fuzz");
+  const std::string written = evit::WriteDeployment(d, evit::ProcmanDialect::kBotProcman);
+  // What is written reads back to the same.
+  if (evit::WriteDeployment(evit::ParseDeployment(written, "again"), evit::ProcmanDialect::kBotProcman) != written) {
+    __builtin_trap();
+  }
+}
+
+void CommandLine(const std::string& text) {
+  const auto value = [](const std::string&) -> std::optional<std::string> { return "a b"; };
+  const evit::CommandLine line = evit::SplitCommandLine(text, value);
+  if (evit::SplitCommandLine(evit::JoinCommandLine(line.words), value).words != line.words) __builtin_trap();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::string text(reinterpret_cast<const char*>(data + 1), size - 1);
+  try {
+    switch (data[0] % 4) {
+      case 0:
+        Deployment(text);
+        break;
+      case 1:
+        CommandLine(text);
+        break;
+      case 2:
+        evit::ParseBusFaults(text);
+        break;
+      default:
+        evit::ParseLcmUrl(text);
+    }
+  } catch (const std::runtime_error&) {
+  } catch (const std::invalid_argument&) {
+  }
+  return 0;
+}

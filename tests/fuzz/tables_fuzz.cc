@@ -1,0 +1,49 @@
+// Text tables: VECtor's IMU file, trajectories (TUM), RPG's four files. The first byte chooses.
+#include <stdexcept>
+
+#include "common/evaluation/trajectory.h"
+#include "tests/fuzz/temporary_file.h"
+#include "tools/rpg/rpg_events.h"
+#include "tools/rpg/rpg_tables.h"
+#include "tools/vector/imu_file.h"
+
+namespace {
+
+void Read(int table, const std::string& path) {
+  evit::DropCounts dropped;
+  switch (table) {
+    case 0:
+      evit::ReadImuFile(path);
+      break;
+    case 1:
+      evit::ReadTum(path);
+      break;
+    case 2:
+      evit::ReadRpgImu(path, &dropped);
+      break;
+    case 3:
+      evit::ReadRpgTruth(path, &dropped);
+      break;
+    case 4:
+      evit::ReadRpgCamera(path, 240, 180);
+      break;
+    default: {
+      evit::RpgEvents reader(path, 240, 180);
+      evit::EventArray events;
+      while (reader.Read(&events)) {
+      }
+    }
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  try {
+    const evit::fuzz::TemporaryFile file(data + 1, size - 1);
+    Read(data[0] % 6, file.path());
+  } catch (const std::runtime_error&) {
+  }
+  return 0;
+}
