@@ -129,6 +129,8 @@ config::Tracker LoadTracker(const std::string& path) {
   positive(c.keyframes().max_interval_ms(), "keyframes.max_interval_ms");
   positive(c.keyframes().bootstrap_interval_ms(), "keyframes.bootstrap_interval_ms");
   Require(c.keyframes().min_events() >= 0, path, "keyframes.min_events: must not be negative");
+  Require(c.keyframes().fixed_rate_hz() >= 0 && c.keyframes().fixed_rate_hz() <= 2000, path,
+          "keyframes.fixed_rate_hz: 0 to 2000 are wanted");
   const config::Surface& s = c.surface();
   Require(s.lookahead_ms() >= 0 && s.lookahead_ms() <= 200, path,
           "surface.lookahead_ms: 0 to 200 are wanted");

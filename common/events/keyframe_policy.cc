@@ -18,14 +18,15 @@ KeyframePolicy::KeyframePolicy(const config::Keyframes& keyframes, const config:
       n_imu_(keyframes.n_imu()),
       max_interval_(Micros(keyframes.max_interval_ms())),
       high_rate_interval_(Micros(keyframes.bootstrap_interval_ms())),
+      fixed_interval_(keyframes.fixed_rate_hz() > 0 ? Micros(1e3 / keyframes.fixed_rate_hz()) : 0),
       tail_px_(surface.tail_px()),
       min_decay_us_(surface.min_decay_ms() * 1e3),
       max_decay_us_(surface.max_decay_ms() * 1e3),
       default_decay_us_(surface.default_decay_ms() * 1e3) {}
 
 std::optional<Utime> KeyframePolicy::Due(const Situation& s) const {
-  if (IsHighRate(s.mode)) {
-    const Utime stamp = s.last + high_rate_interval_;
+  if (fixed_interval_ > 0 || IsHighRate(s.mode)) {
+    const Utime stamp = s.last + (fixed_interval_ > 0 ? fixed_interval_ : high_rate_interval_);
     if (stamp > s.imu) return std::nullopt;
     return stamp > s.imu_before && s.imu - s.imu_before > kImuHole ? s.imu : stamp;
   }

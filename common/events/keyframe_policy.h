@@ -32,7 +32,8 @@ class KeyframePolicy {
   };
   /// Stamp of the keyframe that is due, in (last, imu]; none where none is.
   /// Tracking: the newest IMU sample's (paper Sec. III-B.1). Bootstrapping or lost: fixed intervals, also
-  /// between IMU samples, but not inside a hole in the IMU stream, where nothing can be interpolated.
+  /// between IMU samples (so with a fixed rate), but not inside a hole in the IMU stream, where nothing can
+  /// be interpolated.
   std::optional<Utime> Due(const Situation& situation) const;
 
   static bool IsHighRate(TrackerFeedback::Mode mode) { return mode != TrackerFeedback::Mode::kTracking; }
@@ -43,7 +44,7 @@ class KeyframePolicy {
  private:
   std::int64_t n_event_, min_events_;
   int n_imu_;
-  Utime max_interval_, high_rate_interval_;
+  Utime max_interval_, high_rate_interval_, fixed_interval_;
   double tail_px_, min_decay_us_, max_decay_us_, default_decay_us_;
 };
 

@@ -31,6 +31,7 @@ inline config::Tracker SmallConfig() {
   k.set_n_imu(4);
   k.set_max_interval_ms(60);
   k.set_min_events(200);
+  k.set_fixed_rate_hz(0);
   k.set_bootstrap_interval_ms(7.3);  // between IMU samples
   config::Surface& s = *config.mutable_surface();
   s.set_kind(config::Surface::SYMMETRIC);

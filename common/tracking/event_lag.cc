@@ -3,13 +3,15 @@
 namespace evit {
 namespace {
 
-constexpr double kSlow = 5;  // pixels/s: well below it the direction of motion means nothing, and neither does a lag
+constexpr double kSlow =
+    5;  // pixels/s: well below it the direction of motion means nothing, and neither does a lag
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> WhereEventsShow(const AlignmentSettings& settings, std::vector<Eigen::Vector3f> points,
-                                             const SE3& T_world_body, const Eigen::Vector3d& velocity,
-                                             const Eigen::Vector3d& rate, double lag_px) {
+std::vector<Eigen::Vector3f> WhereEventsShow(const AlignmentSettings& settings,
+                                             std::vector<Eigen::Vector3f> points, const SE3& T_world_body,
+                                             const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate,
+                                             double lag_px) {
   if (lag_px == 0) return points;
   const Eigen::Matrix3d R_wb = T_world_body.R(), R_bw = R_wb.transpose(), R_cb = settings.T_camera_body.R();
   const Eigen::Vector3d v_body = R_bw * velocity;

@@ -24,8 +24,8 @@ TEST(EventLag, PointsShowBehindTheirMotionByTheSameNumberOfPixels) {
       const auto project = [&](const SE3& body, const Eigen::Vector3f& p, Eigen::Vector2d* uv) {
         return settings.camera().Project(settings.T_camera_body * (body.Inverse() * p.cast<double>()), uv);
       };
-      if (!project(pose, room[k], &now) || !project(later, room[k], &then) || !project(pose, shown[k], &seen) ||
-          !settings.camera().Contains(now)) {
+      if (!project(pose, room[k], &now) || !project(later, room[k], &then) ||
+          !project(pose, shown[k], &seen) || !settings.camera().Contains(now)) {
         continue;
       }
       const Eigen::Vector2d flow = (then - now) / kDt;

@@ -168,7 +168,12 @@ BodyState Tracker::Predict(const KeyframeInput& keyframe) const {
 
 TrackerOutput Tracker::Process(const KeyframeInput& keyframe) {
   TrackerOutput out;
-  if (!keyframe.imu.empty()) rate_ = keyframe.imu.back().gyro - state_.bias.gyro;
+  if (!keyframe.imu.empty() && config_.method() == config::Tracker::EVIT)
+    rate_ = keyframe.imu.back().gyro - state_.bias.gyro;
+  if (config_.method() == config::Tracker::EVT) {
+    ProcessEventOnly(keyframe, &out);
+    return out;
+  }
   const bool follows = Follows(keyframe);
   if (mode_ == TrackerMode::kTracking) {
     ProcessTracking(keyframe, &out);

@@ -89,6 +89,7 @@ class Tracker {
 
   void ProcessBootstrap(const KeyframeInput& keyframe, bool follows, TrackerOutput* out);
   void ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out);
+  void ProcessEventOnly(const KeyframeInput& keyframe, TrackerOutput* out);
   std::string Trouble(const KeyframeInput& keyframe, bool usable, const std::string& coasting,
                       const TrackerOutput& out);
   bool Follows(const KeyframeInput& keyframe);

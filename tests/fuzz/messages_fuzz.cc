@@ -12,7 +12,8 @@ void Try(const std::uint8_t* data, std::size_t size) {
   if (!evit::DecodeChecked(data, size, &message, &why)) return;
   std::vector<std::uint8_t> again;
   evit::EncodeTo(message, &again);
-  if (again != std::vector<std::uint8_t>(data, data + size)) __builtin_trap();  // not the bytes it was made from
+  if (again != std::vector<std::uint8_t>(data, data + size))
+    __builtin_trap();  // not the bytes it was made from
   if constexpr (std::is_same_v<Message, evit::event_packet_t>) {
     evit::EventArray events;
     evit::AppendEvents(message, &events);
@@ -27,13 +28,22 @@ void TryProcman(const std::uint8_t* data, std::size_t size) {
 }
 
 using Function = void (*)(const std::uint8_t*, std::size_t);
-constexpr Function kTypes[] = {
-    &Try<evit::body_pose_t>,       &Try<evit::credit_t>,         &Try<evit::event_packet_t>,
-    &Try<evit::imu_batch_t>,       &Try<evit::keyframe_t>,       &Try<evit::map_points_t>,
-    &Try<evit::map_query_t>,       &Try<evit::replay_control_t>, &Try<evit::service_status_t>,
-    &Try<evit::stream_end_t>,      &Try<evit::tracker_mode_t>,   &Try<evit::window_state_t>,
-    &TryProcman<procman_lcm::orders_t>, &TryProcman<procman_lcm::deputy_info_t>,
-    &TryProcman<procman_lcm::output_t>, &TryProcman<procman_lcm::discovery_t>};
+constexpr Function kTypes[] = {&Try<evit::body_pose_t>,
+                               &Try<evit::credit_t>,
+                               &Try<evit::event_packet_t>,
+                               &Try<evit::imu_batch_t>,
+                               &Try<evit::keyframe_t>,
+                               &Try<evit::map_points_t>,
+                               &Try<evit::map_query_t>,
+                               &Try<evit::replay_control_t>,
+                               &Try<evit::service_status_t>,
+                               &Try<evit::stream_end_t>,
+                               &Try<evit::tracker_mode_t>,
+                               &Try<evit::window_state_t>,
+                               &TryProcman<procman_lcm::orders_t>,
+                               &TryProcman<procman_lcm::deputy_info_t>,
+                               &TryProcman<procman_lcm::output_t>,
+                               &TryProcman<procman_lcm::discovery_t>};
 
 }  // namespace
 

@@ -1,4 +1,5 @@
-// Deployment files, their command lines, and two small languages: LCM URLs and EVIT_BUS_FAULTS. The first byte chooses.
+// Deployment files, their command lines, and two small languages: LCM URLs and EVIT_BUS_FAULTS. The first
+// byte chooses.
 #include <stdexcept>
 
 #include "common/bus/faulty_bus.h"
@@ -12,7 +13,8 @@ void Deployment(const std::string& text) {
   const evit::Deployment d = evit::ParseDeployment(text, "fuzz");
   const std::string written = evit::WriteDeployment(d, evit::ProcmanDialect::kBotProcman);
   // What is written reads back to the same.
-  if (evit::WriteDeployment(evit::ParseDeployment(written, "again"), evit::ProcmanDialect::kBotProcman) != written) {
+  if (evit::WriteDeployment(evit::ParseDeployment(written, "again"), evit::ProcmanDialect::kBotProcman) !=
+      written) {
     __builtin_trap();
   }
 }

@@ -1,0 +1,55 @@
+// EVT, the paper's event-only baseline (Sec. IV): each frame is localised by its events alone, from the previous pose.
+// Nothing of the IMU is used.
+#include <utility>
+
+#include "common/tracking/text.h"
+#include "common/tracking/tracker.h"
+
+namespace evit {
+namespace {
+
+constexpr int kLevels = 3;
+constexpr StartSigma kStart{0.05, 0.05};  // how far a body may get between two frames, and then some
+constexpr int kPatience = 30;             // frames that do not fit before it says LOST
+
+}  // namespace
+
+void Tracker::ProcessEventOnly(const KeyframeInput& keyframe, TrackerOutput* out) {
+  const double dt = state_time_ > 0 ? ToSeconds(keyframe.t - state_time_) : 0;
+  const SE3 previous = state_.T_world_body;
+  BodyState predicted = state_;
+  if (config_.window().motion_model() >= 1 && dt > 0) {  // constant velocity
+    predicted.T_world_body.p += dt * state_.velocity;
+    predicted.T_world_body.q = (previous.q * ExpSO3(dt * rate_)).normalized();
+  }
+  const SurfaceField field(keyframe.surface, kLevels);
+  const AlignmentPoints points = SamplePoints(predicted, config_.points().per_keyframe(), keyframe.seq);
+  const LocalizerResult fit = Localize(alignment_, field, points, predicted.T_world_body, kStart, kLevels);
+  out->quality = fit.quality;
+  out->iterations = fit.iterations;
+  const bool good = Aligned(fit.quality, config_.failure().min_contrast());
+  bad_frames_ = good ? 0 : bad_frames_ + 1;
+  state_time_ = keyframe.t;
+  if (bad_frames_ > kPatience) {
+    state_.velocity.setZero();
+    rate_.setZero();
+    SetMode(TrackerMode::kLost, "the map does not lie on the events (event-only)");
+  } else if (good) {
+    if (dt > 0) {
+      state_.velocity = (fit.T_world_body.p - previous.p) / dt;
+      rate_ = LogSO3(previous.q.conjugate() * fit.T_world_body.q) / dt;
+    }
+    state_.T_world_body = fit.T_world_body;
+    SetMode(TrackerMode::kTracking, "tracking (event-only)");
+    out->information.topLeftCorner<6, 6>() =
+        EvaluateAlignment(alignment_, field, 0, points, fit.T_world_body, true).hessian;
+    out->information.bottomRightCorner<9, 9>().setIdentity();
+    out->covariance = PoseCovariance(out->information);
+    out->nodes.push_back({keyframe.t, keyframe.seq, state_});
+    Finish(points, out);
+  }
+  out->mode = mode_;
+  out->reason = reason_;
+}
+
+}  // namespace evit
