@@ -49,6 +49,16 @@ TEST_F(KeyframePolicyTest, HighRateStampsLieBetweenSamples) {
   }
 }
 
+TEST_F(KeyframePolicyTest, AFixedRateKeepsToItself) {
+  config::Keyframes keyframes = test::SmallConfig().keyframes();
+  keyframes.set_fixed_rate_hz(100);
+  const KeyframePolicy fixed(keyframes, test::SmallConfig().surface());
+  for (const Mode mode : {Mode::kBootstrapping, Mode::kTracking, Mode::kLost}) {
+    EXPECT_FALSE(fixed.Due(At(mode, 1'009'999, 1'000'000, 2)));
+    EXPECT_EQ(fixed.Due(At(mode, 1'012'000, 0, 2)), 1'010'000);
+  }
+}
+
 TEST_F(KeyframePolicyTest, NothingIsInterpolatedInsideAHoleOfTheImu) {
   EXPECT_EQ(policy_.Due({Mode::kLost, 1, 1'000'000, 1'500'000, 1'005'000, 0, 2}), 1'500'000);
 }

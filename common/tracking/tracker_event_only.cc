@@ -1,5 +1,5 @@
-// EVT, the paper's event-only baseline (Sec. IV): each frame is localised by its events alone, from the previous pose.
-// Nothing of the IMU is used.
+// EVT, the paper's event-only baseline (Sec. IV): each frame is localised by its events alone, from the
+// previous pose. Nothing of the IMU is used.
 #include <utility>
 
 #include "common/tracking/text.h"

@@ -178,6 +178,27 @@ TEST(Tracker, CoastsOnTheImuWhileThereAreNoEvents) {
   EXPECT_EQ(out.reason.substr(0, 13), "no events for");
 }
 
+TEST(Tracker, EventOnlyTracksWithoutTheImu) {
+  const Motion motion;
+  config::Tracker config = Config();
+  config.set_method(config::Tracker::EVT);
+  config.mutable_window()->set_motion_model(0);
+  Bench bench(config, motion.State(1.0).T_world_body);
+  bench.bias = {{9, 9, 9}, {99, 99, 99}};  // nothing of it is used
+  TrackerOutput out;
+  for (Utime t = 1'000'000; t <= 2'000'000; t += 3'333) {
+    out = bench.Step(t, bench.room);
+    ASSERT_EQ(out.mode, TrackerMode::kTracking);
+    ASSERT_TRUE(out.has_pose);
+    EXPECT_LT((out.nodes.back().state.T_world_body.p - motion.State(ToSeconds(t)).T_world_body.p).norm(),
+              0.02);
+  }
+  EXPECT_GT(out.covariance(0, 0), 0);
+  const auto other = synthetic::RoomPoints(60, 99);
+  for (int k = 0; k < 60; ++k) out = bench.Step(2'003'333 + k * 3'333, other);
+  EXPECT_EQ(out.mode, TrackerMode::kLost);
+}
+
 TEST(Tracker, AClockThatJumpsIsSaidAndTrackingResumes) {
   for (const Utime jump : {Utime{-5'000'000}, Utime{3'600'000'000}}) {
     const Motion motion;
