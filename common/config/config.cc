@@ -119,6 +119,8 @@ Rig LoadRig(const std::string& path) {
   return rig;
 }
 
+std::string LoadRigName(const std::string& path) { return Parse<config::Rig>(path).name(); }
+
 config::Tracker LoadTracker(const std::string& path) {
   auto c = Parse<config::Tracker>(path);
   const auto positive = [&](double v, const char* name) {

@@ -19,6 +19,9 @@ class ConfigError : public std::runtime_error {
 /// rotation that is not one, a value out of its range.
 Rig LoadRig(const std::string& path);
 
+/// A rig file's name for people. Throws ConfigError as LoadRig does.
+std::string LoadRigName(const std::string& path);
+
 /// Reads a tracker file. Throws ConfigError as LoadRig does.
 config::Tracker LoadTracker(const std::string& path);
 

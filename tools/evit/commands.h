@@ -11,6 +11,7 @@ namespace evit {
 void AddImportCommand(CLI::App* app);
 void AddMapCommand(CLI::App* app);
 void AddEvalCommand(CLI::App* app);
+void AddCalibrateCommand(CLI::App* app);
 void AddRunCommand(CLI::App* app);
 void AddUpCommand(CLI::App* app);
 /// ps, start, stop, restart, logs.

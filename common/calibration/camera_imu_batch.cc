@@ -1,0 +1,260 @@
+#include "common/calibration/camera_imu_batch.h"
+
+#include <ceres/loss_function.h>
+#include <ceres/normal_prior.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/calibration/camera_pose_factor.h"
+#include "common/tracking/ceres_factors.h"
+#include "common/tracking/pose_manifold.h"
+
+namespace evit {
+namespace {
+
+constexpr double kStill = 20e-6;  // s: an offset that moves less than this stands still
+constexpr int kMoves = 6;
+constexpr double kCauchy = 4;  // whitened length of six residuals from which a pose counts less
+
+// T_body_camera known beforehand.
+class ExtrinsicPrior : public ceres::SizedCostFunction<6, 7> {
+ public:
+  explicit ExtrinsicPrior(const CameraImuPrior& prior)
+      : mean_(prior.T_body_camera),
+        root_p_(prior.position_information.llt().matrixU()),
+        root_r_(prior.rotation_information.llt().matrixU()) {}
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const SE3 at = PoseFromBlock(parameters[0]);
+    const Eigen::Vector3d turn = LogSO3(mean_.q.conjugate() * at.q);
+    Eigen::Map<Eigen::Matrix<double, 6, 1>> r(residuals);
+    r << root_p_ * (at.p - mean_.p), root_r_ * turn;
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> J(jacobians[0]);
+      J.setZero();
+      J.topLeftCorner<3, 3>() = root_p_;
+      J.block<3, 3>(3, 3) = root_r_ * RightJacobianInverseSO3(turn);
+    }
+    return r.allFinite();
+  }
+
+ private:
+  SE3 mean_;
+  Eigen::Matrix3d root_p_, root_r_;
+};
+
+// Covariance of the last 15 of the problem's parameters, in the order of `blocks`: columns of the
+// inverse of J' J. (ceres::Covariance would want a QR of the whole chain.)
+bool LastCovariance(ceres::Problem* problem, const std::vector<double*>& blocks, CameraImuCovariance* out) {
+  ceres::Problem::EvaluateOptions options;
+  options.parameter_blocks = blocks;
+  options.apply_loss_function = true;
+  ceres::CRSMatrix crs;
+  if (!problem->Evaluate(options, nullptr, nullptr, nullptr, &crs)) return false;
+  const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> J(
+      crs.num_rows, crs.num_cols, static_cast<Eigen::Index>(crs.values.size()), crs.rows.data(),
+      crs.cols.data(), crs.values.data());
+  const Eigen::SparseMatrix<double> column_major = J;
+  const Eigen::SparseMatrix<double> H = column_major.transpose() * column_major;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(H);
+  if (ldlt.info() != Eigen::Success) return false;
+  constexpr int kWanted = CameraImuCovariance::RowsAtCompileTime;
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(H.rows(), kWanted);
+  unit.bottomRows<kWanted>().setIdentity();
+  const Eigen::MatrixXd columns = ldlt.solve(unit);
+  *out = 0.5 * (columns.bottomRows<kWanted>() + columns.bottomRows<kWanted>().transpose());
+  return out->allFinite();
+}
+
+double MedianAbs(std::vector<double> values) {
+  if (values.empty()) return 0;
+  for (double& v : values) v = std::abs(v);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// 1 + 2 (sum of the autocorrelation), up to where it has died away: so many values are worth one.
+double CorrelationTime(const std::vector<std::vector<double>>& axes) {
+  double power = 0;
+  for (const auto& axis : axes) {
+    for (const double v : axis) power += v * v;
+  }
+  double time = 1;
+  const std::size_t n = axes[0].size();
+  for (std::size_t lag = 1; power > 0 && lag < n / 5; ++lag) {
+    double sum = 0;
+    for (const auto& axis : axes) {
+      for (std::size_t k = lag; k < n; ++k) sum += axis[k] * axis[k - lag];
+    }
+    if (sum < 0.05 * power) break;
+    time += 2 * sum / power;
+  }
+  return time;
+}
+
+}  // namespace
+
+CameraImuBatch::CameraImuBatch(Trajectory camera, const ImuTrack* imu, const Rig& rig, double noise_factor,
+                               const CameraImuValues& start)
+    : camera_(std::move(camera)), imu_(imu), rig_(rig), noise_factor_(noise_factor), values_(start) {
+  StartStates();
+}
+
+void CameraImuBatch::StartStates() {
+  const SE3 T_camera_body = values_.T_body_camera.Inverse();
+  const SE3 T_upright_map(ExpSO3({-values_.tilt.x(), -values_.tilt.y(), 0}), Eigen::Vector3d::Zero());
+  for (const StampedPose& s : camera_) {
+    BodyState state;
+    state.T_world_body = T_upright_map * s.pose * T_camera_body;
+    state.bias = values_.bias;
+    states_.push_back(ToBlocks(state));
+  }
+  // Velocities from poses some 60 ms apart.
+  for (std::size_t k = 0; k < states_.size(); ++k) {
+    const std::size_t a = k > 3 ? k - 3 : 0, b = std::min(states_.size() - 1, k + 3);
+    Eigen::Map<Eigen::Vector3d>(states_[k].motion.data()) =
+        (PoseFromBlock(states_[b].pose.data()).p - PoseFromBlock(states_[a].pose.data()).p) /
+        ToSeconds(camera_[b].t - camera_[a].t);
+  }
+}
+
+bool CameraImuBatch::Solve(const CameraImuPrior& prior, const PoseNoise& noise, bool robust) {
+  for (int move = 0; move < kMoves; ++move) {
+    double late = 0;
+    if (!SolveOnce(prior, noise, robust, &late)) return false;
+    if (std::abs(late) < kStill) return true;
+  }
+  return true;
+}
+
+bool CameraImuBatch::SolveOnce(const CameraImuPrior& prior, const PoseNoise& noise, bool robust,
+                               double* late) {
+  if (!imu_->Covers(camera_.front().t + values_.offset) || !imu_->Covers(camera_.back().t + values_.offset))
+    return false;  // the offset ran away
+  const std::size_t n = states_.size(), middle = n / 2;
+  std::vector<Preintegration> terms(n);
+  std::array<double, 7> extrinsic = ToBlocks({values_.T_body_camera, Eigen::Vector3d::Zero(), {}}).pose;
+  Eigen::Vector2d tilt = values_.tilt;
+  ceres::Problem problem;
+  ceres::LossFunction* loss = robust ? new ceres::CauchyLoss(kCauchy) : nullptr;
+  const double w_p = noise.position * std::sqrt(noise.position_correlation),
+               w_r = noise.rotation * std::sqrt(noise.rotation_correlation);
+  auto* manifold = new PoseManifold;
+  problem.AddParameterBlock(extrinsic.data(), 7, manifold);
+  for (std::size_t k = 0; k < n; ++k) {
+    StateBlocks& b = states_[k];
+    problem.AddParameterBlock(b.pose.data(), 7, manifold);
+    const Utime t = camera_[k].t + values_.offset;
+    problem.AddResidualBlock(new CameraPoseFactor(camera_[k].pose, imu_->At(t).gyro, w_p, w_r), loss,
+                             b.pose.data(), b.motion.data(), extrinsic.data(), tilt.data(), late);
+    if (k == 0) continue;
+    StateBlocks& a = states_[k - 1];
+    terms[k] = Preintegration(imu_->Between(camera_[k - 1].t + values_.offset, t), FromBlocks(a).bias,
+                              rig_.imu_noise);
+    problem.AddResidualBlock(new ImuFactor(ImuTerm(&terms[k], rig_.gravity, noise_factor_)), nullptr,
+                             a.pose.data(), a.motion.data(), b.pose.data(), b.motion.data());
+  }
+  StatePrior bias;
+  bias.mean = FromBlocks(states_[0]);
+  bias.mean.bias = {};
+  bias.information.diagonal().segment<3>(9).setConstant(std::pow(prior.gyro_bias_sigma, -2));
+  bias.information.diagonal().segment<3>(12).setConstant(std::pow(prior.accel_bias_sigma, -2));
+  problem.AddResidualBlock(new PriorFactor(bias), nullptr, states_[0].pose.data(), states_[0].motion.data());
+  problem.AddResidualBlock(new ExtrinsicPrior(prior), nullptr, extrinsic.data());
+  const ceres::Matrix tilt_weight = ceres::Matrix::Identity(2, 2) / prior.tilt_sigma,
+                      offset_weight = ceres::Matrix::Identity(1, 1) / prior.offset_sigma;
+  problem.AddResidualBlock(new ceres::NormalPrior(tilt_weight, ceres::Vector::Zero(2)), nullptr, tilt.data());
+  problem.AddResidualBlock(
+      new ceres::NormalPrior(offset_weight,
+                             ceres::Vector::Constant(1, ToSeconds(prior.offset - values_.offset))),
+      nullptr, late);
+
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = 30;
+  options.function_tolerance = 1e-8;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable()) return false;
+
+  // The order of CameraImuCovariance; the middle state's velocity goes before its biases, which are wanted.
+  std::vector<double*> blocks;
+  for (std::size_t k = 0; k < n; ++k) {
+    blocks.push_back(states_[k].pose.data());
+    if (k != middle) blocks.push_back(states_[k].motion.data());
+  }
+  blocks.insert(blocks.end(), {states_[middle].motion.data(), extrinsic.data(), late, tilt.data()});
+  Eigen::Matrix<double, 15, 15> last;  // biases 6, extrinsic 6, offset 1, tilt 2
+  if (!LastCovariance(&problem, blocks, &last)) return false;
+  const int from[15] = {6, 7, 8, 9, 10, 11, 12, 13, 14, 0, 1, 2, 3, 4, 5};
+  for (int r = 0; r < 15; ++r) {
+    for (int c = 0; c < 15; ++c) covariance_(r, c) = last(from[r], from[c]);
+  }
+
+  values_.T_body_camera = PoseFromBlock(extrinsic.data());
+  values_.T_body_camera.q.normalize();
+  values_.offset += std::llround(*late * 1e6);
+  values_.tilt = tilt;
+  values_.bias = FromBlocks(states_[middle]).bias;
+  return true;
+}
+
+Eigen::Matrix<double, 6, 1> CameraImuBatch::Residual(std::size_t k) const {
+  const CameraPoseFactor factor(camera_[k].pose, Eigen::Vector3d::Zero(), 1, 1);
+  const std::array<double, 7> extrinsic = ToBlocks({values_.T_body_camera, Eigen::Vector3d::Zero(), {}}).pose;
+  const double late = 0;
+  const double* parameters[5] = {states_[k].pose.data(), states_[k].motion.data(), extrinsic.data(),
+                                 values_.tilt.data(), &late};
+  Eigen::Matrix<double, 6, 1> r;
+  factor.Evaluate(parameters, r.data(), nullptr);
+  return r;
+}
+
+PoseNoise CameraImuBatch::MeasureNoise() const {
+  std::vector<std::vector<double>> axes(6);
+  for (std::size_t k = 0; k < states_.size(); ++k) {
+    const Eigen::Matrix<double, 6, 1> r = Residual(k);
+    for (int i = 0; i < 6; ++i) axes[i].push_back(r[i]);
+  }
+  const auto sigma = [&](int first) {
+    std::vector<double> all;
+    for (int i = first; i < first + 3; ++i) all.insert(all.end(), axes[i].begin(), axes[i].end());
+    return 1.4826 * MedianAbs(all);
+  };
+  PoseNoise noise;
+  noise.position = std::max(sigma(0), 1e-6);
+  noise.rotation = std::max(sigma(3), 1e-6);
+  // What is far off would be all of the correlation.
+  for (int i = 0; i < 6; ++i) {
+    const double limit = 5 * (i < 3 ? noise.position : noise.rotation);
+    for (double& v : axes[i]) v = std::clamp(v, -limit, limit);
+  }
+  noise.position_correlation = CorrelationTime({axes[0], axes[1], axes[2]});
+  noise.rotation_correlation = CorrelationTime({axes[3], axes[4], axes[5]});
+  return noise;
+}
+
+int CameraImuBatch::RemoveOutliers(const PoseNoise& noise, double sigmas) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < states_.size(); ++k) {
+    const Eigen::Matrix<double, 6, 1> r = Residual(k);
+    if (r.head<3>().norm() > sigmas * noise.position || r.tail<3>().norm() > sigmas * noise.rotation)
+      continue;
+    states_[kept] = states_[k];
+    camera_[kept++] = camera_[k];
+  }
+  const auto removed = static_cast<int>(states_.size() - kept);
+  states_.resize(kept);
+  camera_.resize(kept);
+  return removed;
+}
+
+}  // namespace evit

@@ -1,0 +1,135 @@
+// Recordings of rigs that are known, calibrated from rig files that are wrong.
+#include "common/calibration/camera_imu_calibration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/calibration/test_recording.h"
+
+namespace evit {
+namespace {
+
+using test::Recording;
+using ::testing::HasSubstr;
+
+constexpr double kDegree = EIGEN_PI / 180;
+
+void Print(const Recording& recording, const CameraImuCalibration& c) {
+  const SE3 &truth = recording.rig.T_body_camera, &found = c.values.T_body_camera;
+  std::printf(
+      "off by %.3f deg, %.2f mm, %.0f us; noise %.2f mm x %.0f, %.3f deg x %.0f; %d poses, %d left out\n",
+      AngularDistance(truth.q, found.q) / kDegree, 1e3 * (truth.p - found.p).norm(),
+      static_cast<double>(c.values.offset - recording.rig.camera_time_offset), 1e3 * c.noise.position,
+      c.noise.position_correlation, c.noise.rotation / kDegree, c.noise.rotation_correlation, c.n_poses,
+      c.n_rejected);
+}
+
+void ExpectFound(const Recording& recording, const CameraImuCalibration& c) {
+  ASSERT_TRUE(c.success) << c.reason;
+  Print(recording, c);
+  EXPECT_TRUE(c.unobservable.empty());
+  EXPECT_LT(AngularDistance(recording.rig.T_body_camera.q, c.values.T_body_camera.q), 0.1 * kDegree);
+  EXPECT_LT((recording.rig.T_body_camera.p - c.values.T_body_camera.p).norm(), 5e-3);
+  EXPECT_NEAR(static_cast<double>(c.values.offset), static_cast<double>(recording.rig.camera_time_offset),
+              500);
+  EXPECT_LT((c.values.bias.gyro - recording.bias.gyro).norm(), 0.002);
+  EXPECT_LT((c.values.bias.accel - recording.bias.accel).norm(), 0.03);
+  EXPECT_LT((c.values.tilt - recording.tilt).norm(), 0.2 * kDegree);
+}
+
+// All 15 errors, in the order of the covariance.
+Eigen::Matrix<double, 15, 1> Errors(const Recording& recording, const CameraImuCalibration& c) {
+  Eigen::Matrix<double, 15, 1> e;
+  e << recording.rig.T_body_camera.p - c.values.T_body_camera.p,
+      LogSO3(c.values.T_body_camera.q.conjugate() * recording.rig.T_body_camera.q),
+      ToSeconds(recording.rig.camera_time_offset - c.values.offset), recording.tilt - c.values.tilt,
+      recording.bias.gyro - c.values.bias.gyro, recording.bias.accel - c.values.bias.accel;
+  return e;
+}
+
+TEST(CameraImuCalibration, FindsTheRigFromHandHeldMotion) {
+  double normalised = 0;
+  constexpr int kSeeds = 3;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    Recording recording;
+    recording.seed = static_cast<unsigned>(seed);
+    const CameraImuCalibration c = CalibrateCameraImu(recording.Camera(), recording.Imu(), recording.Wrong());
+    ExpectFound(recording, c);
+    const Eigen::Matrix<double, 15, 1> e = Errors(recording, c);
+    normalised += e.dot(c.covariance.ldlt().solve(e)) / 15;
+    EXPECT_NEAR(c.noise.position, 2e-3, 1e-3);
+    EXPECT_GT(c.noise.position_correlation, 10);  // what wanders does so for a second
+  }
+  // The sigmas are of the errors' size: chi-square over 15, three times, and the IMU's noise counted double.
+  EXPECT_LT(normalised / kSeeds, 2.5);
+  EXPECT_GT(normalised / kSeeds, 0.1);
+}
+
+TEST(CameraImuCalibration, FindsTheTiltOfTheMap) {
+  Recording recording;
+  recording.tilt = {3 * kDegree, -2 * kDegree};
+  ExpectFound(recording, CalibrateCameraImu(recording.Camera(), recording.Imu(), recording.Wrong()));
+}
+
+TEST(CameraImuCalibration, LeavesOutPosesThatAreFarOff) {
+  Recording recording;
+  recording.outliers = 0.05;
+  const CameraImuCalibration c = CalibrateCameraImu(recording.Camera(), recording.Imu(), recording.Wrong());
+  ExpectFound(recording, c);
+  EXPECT_GT(c.n_rejected, 0.03 * c.n_poses);
+  EXPECT_LT(c.n_rejected, 0.08 * c.n_poses);
+}
+
+TEST(CameraImuCalibration, BridgesHolesInTheTracking) {
+  Recording recording;
+  Trajectory camera = recording.Camera();
+  camera.erase(camera.begin() + 300, camera.begin() + 400);  // a second
+  ExpectFound(recording, CalibrateCameraImu(camera, recording.Imu(), recording.Wrong()));
+}
+
+TEST(CameraImuCalibration, OneAxisOfTurningKeepsWhatItDoesNotShow) {
+  Recording recording;
+  recording.motion = test::YawOnly;
+  const Rig wrong = recording.Wrong();
+  const CameraImuCalibration c = CalibrateCameraImu(recording.Camera(), recording.Imu(), wrong);
+  ASSERT_TRUE(c.success) << c.reason;
+  Print(recording, c);
+  // How far the camera is along the axis of turning makes no difference to what it sees.
+  bool along_axis = false;
+  for (const Unobservable& u : c.unobservable) {
+    if (u.value != Unobservable::Value::kTranslation) continue;
+    along_axis = along_axis || std::abs(u.direction.z()) > 0.99;
+    EXPECT_GT(u.sigma, 0.015);
+  }
+  EXPECT_TRUE(along_axis);
+  EXPECT_NEAR(c.values.T_body_camera.p.z(), wrong.T_body_camera.p.z(), 1e-3);
+  EXPECT_NEAR(c.values.T_body_camera.p.x(), recording.rig.T_body_camera.p.x(), 8e-3);
+  EXPECT_NEAR(c.values.T_body_camera.p.y(), recording.rig.T_body_camera.p.y(), 8e-3);
+  EXPECT_NEAR(static_cast<double>(c.values.offset), 3'000, 500);
+}
+
+TEST(CameraImuCalibration, TooSlowAMotionKeepsTheRigFile) {
+  Recording recording;
+  recording.motion = test::Creeping;
+  const Rig wrong = recording.Wrong();
+  const CameraImuCalibration c = CalibrateCameraImu(recording.Camera(), recording.Imu(), wrong);
+  ASSERT_TRUE(c.success) << c.reason;
+  Print(recording, c);
+  EXPECT_GE(c.unobservable.size(), 5U);
+  EXPECT_EQ(c.values.offset, wrong.camera_time_offset);
+  EXPECT_LT((c.values.T_body_camera.p - wrong.T_body_camera.p).norm(), 1e-3);
+}
+
+TEST(CameraImuCalibration, SaysWhyItCannot) {
+  Recording recording;
+  EXPECT_THAT(CalibrateCameraImu(recording.Camera(), {}, recording.rig).reason, HasSubstr("no IMU samples"));
+  EXPECT_THAT(CalibrateCameraImu({}, recording.Imu(), recording.rig).reason, HasSubstr("less than 3 s"));
+  Recording other;
+  other.motion = [](Utime t) { return test::Lively(t + 777'000'000); };
+  const CameraImuCalibration c = CalibrateCameraImu(recording.Camera(), other.Imu(), recording.rig);
+  EXPECT_FALSE(c.success);
+  EXPECT_THAT(c.reason, HasSubstr("belong together"));
+}
+
+}  // namespace
+}  // namespace evit

@@ -1,0 +1,122 @@
+#include "tools/calibration/calibration_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "common/bus/codec.h"
+#include "common/bus/log_file.h"
+#include "common/bus/sample_messages.h"
+#include "common/config/config.h"
+#include "common/config/rig_file.h"
+#include "tools/calibration/recorded_motion.h"
+
+namespace evit {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Rig Before() { return LoadRig(std::string(EVIT_SOURCE_DIR) + "/config/vector/rig.textproto"); }
+
+CameraImuCalibration Found() {
+  CameraImuCalibration c;
+  c.success = true;
+  c.values.T_body_camera = Before().T_body_camera;
+  c.values.T_body_camera.p.x() += 0.0105;
+  c.values.T_body_camera.q = c.values.T_body_camera.q * ExpSO3({0, 0.02, 0});
+  c.values.offset = -4'321;
+  c.values.tilt = {0.02, 0};
+  c.covariance.diagonal().setConstant(1e-6);
+  return c;
+}
+
+TEST(CalibrationReport, TextNamesEachValueAndWhatIsNotObservable) {
+  CameraImuCalibration c = Found();
+  EXPECT_THAT(CalibrationText(Before(), c),
+              AllOf(HasSubstr("139.575"), HasSubstr("129.075"), HasSubstr("-4.321"), HasSubstr("1.146"),
+                    HasSubstr("moved by 10.5 mm"), Not(HasSubstr("NOT OBSERVABLE"))));
+  c.unobservable.push_back({Unobservable::Value::kTranslation, {0, 0, 1}, 0.09});
+  c.unobservable.push_back({Unobservable::Value::kTimeOffset, Eigen::Vector3d::Zero(), 0.004});
+  EXPECT_THAT(
+      CalibrationText(Before(), c),
+      AllOf(HasSubstr("NOT OBSERVABLE from this motion: translation along (0.00, 0.00, 1.00) of the body, "
+                      "known to 9.0 cm only"),
+            HasSubstr("time offset, known to 4.0 ms only")));
+}
+
+TEST(CalibrationReport, RigFileHoldsWhatWasFoundAndWhereItIsFrom) {
+  const std::string path = ::testing::TempDir() + "calibrated_" + std::to_string(getpid()) + ".textproto";
+  const Rig rig = Calibrated(Before(), Found());
+  const std::string comment = RigComment(Before(), Found(), "from a.lcmlog");
+  WriteRig(path, rig, "mine", comment);
+  const Rig read = LoadRig(path);
+  EXPECT_EQ(LoadRigName(path), "mine");
+  std::remove(path.c_str());
+  EXPECT_THAT(comment, AllOf(HasSubstr("from a.lcmlog"), HasSubstr("139.575, was 129.075, sigma 1.000")));
+  EXPECT_EQ(read.camera_time_offset, -4'321);
+  EXPECT_LT((read.T_body_camera.p - Found().values.T_body_camera.p).norm(), 1e-12);
+  EXPECT_LT(AngularDistance(read.T_body_camera.q, Found().values.T_body_camera.q), 1e-7);
+  EXPECT_EQ(read.imu_noise.gyro_density, Before().imu_noise.gyro_density);
+}
+
+TEST(CalibrationReport, TiltIsToldWhereItIsSureAndTheMatrixTurnsTheMapUpright) {
+  CameraImuCalibration c = Found();
+  const std::string advice = TiltAdvice(c, "a/desk.ply", {});
+  EXPECT_THAT(advice,
+              AllOf(HasSubstr("1.15 deg"), HasSubstr("evit map import a/desk.ply a/desk_upright.pcd")));
+  double m[9] = {0};
+  ASSERT_EQ(std::sscanf(advice.c_str() + advice.find("--transform \"") + 13,
+                        "%lf %lf %lf 0 %lf %lf %lf 0 %lf %lf %lf", m, m + 1, m + 2, m + 3, m + 4, m + 5,
+                        m + 6, m + 7, m + 8),
+            9);
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(m);
+  const Eigen::Vector3d up_in_map = ExpSO3({0.02, 0, 0}) * Eigen::Vector3d::UnitZ();
+  EXPECT_LT((R * up_in_map - Eigen::Vector3d::UnitZ()).norm(), 1e-8);
+
+  c.covariance.diagonal().setConstant(1e-3);
+  EXPECT_EQ(TiltAdvice(c, "a/desk.ply", {}), "");  // may well be none
+  c.covariance.diagonal().setConstant(1e-12);
+  c.values.tilt = {5e-4, 0};
+  EXPECT_EQ(TiltAdvice(c, "a/desk.ply", {}), "");  // sure, but of no account
+}
+
+TEST(RecordedMotion, ReadsTheImuOfALogWithoutWhatIsBeyondItsRange) {
+  const std::string path = ::testing::TempDir() + "imu_" + std::to_string(getpid()) + ".lcmlog";
+  {
+    LogWriter log(path);
+    std::vector<std::uint8_t> bytes;
+    for (int k = 0; k < 5; ++k) {
+      auto imu = Sample<imu_batch_t>(1);
+      imu.utime = imu.sample_utime[0] = 1'000'000 + 5'000 * k;
+      imu.gyro[0] = {0.1 * k, 0, k == 3 ? 9.0 : 0.0};
+      EncodeTo(imu, &bytes);
+      log.Write(imu.utime, k == 1 ? "OTHER" : "robot.IMU", bytes.data(), bytes.size());
+    }
+    log.Write(2'000'000, "robot.IMU", "rubbish", 7);
+    log.Close();
+  }
+  const std::vector<ImuSample> samples = ReadImu(path, Before().imu_noise);
+  std::remove(path.c_str());
+  ASSERT_EQ(samples.size(), 3U);
+  EXPECT_EQ(samples[1].t, 1'010'000);
+  EXPECT_EQ(samples[2].gyro.x(), 0.4);
+}
+
+TEST(RecordedMotion, CameraDependsOnNeitherExtrinsicsNorOffset) {
+  const Rig a = Before(), b = Calibrated(Before(), Found());
+  const SE3 camera(ExpSO3({1, 2, 0.3}), {1, 2, 3});
+  for (const Rig& rig : {a, b}) {
+    const Trajectory body{{5'000'000 + rig.camera_time_offset, camera * rig.T_body_camera.Inverse()}};
+    const Trajectory back = CameraOf(body, rig);
+    EXPECT_EQ(back[0].t, 5'000'000);
+    EXPECT_LT((back[0].pose.p - camera.p).norm(), 1e-12);
+    EXPECT_LT(AngularDistance(back[0].pose.q, camera.q), 1e-7);
+  }
+}
+
+}  // namespace
+}  // namespace evit

@@ -1,0 +1,46 @@
+#include "tools/calibration/recorded_motion.h"
+
+#include <cstdint>
+#include <stdexcept>
+
+#include "common/bus/codec.h"
+#include "common/bus/log_file.h"
+#include "evit/imu_batch_t.hpp"
+
+namespace evit {
+
+std::vector<ImuSample> ReadImu(const std::string& path, const ImuNoise& limits) {
+  const LogReader log(path);
+  std::vector<ImuSample> samples;
+  std::vector<std::uint8_t> bytes;
+  imu_batch_t message;
+  const std::string end = "IMU";
+  for (const LogEntry& entry : log.entries()) {
+    const std::string& channel = log.channel(entry);
+    if (channel.size() < end.size() || channel.compare(channel.size() - end.size(), end.size(), end) != 0)
+      continue;
+    log.Read(entry, &bytes);
+    if (!DecodeChecked(bytes.data(), bytes.size(), &message)) continue;
+    for (int k = 0; k < message.n; ++k) {
+      const ImuSample s{message.sample_utime[k], Eigen::Vector3d(message.gyro[k].data()),
+                        Eigen::Vector3d(message.accel[k].data())};
+      if (s.gyro.cwiseAbs().maxCoeff() <= 1.1 * limits.gyro_range &&
+          s.accel.cwiseAbs().maxCoeff() <= 1.1 * limits.accel_range) {
+        samples.push_back(s);
+      }
+    }
+  }
+  if (samples.empty()) throw std::runtime_error(path + ": holds no IMU samples; record IMU beside EVENTS");
+  return samples;
+}
+
+Trajectory CameraOf(const Trajectory& body, const Rig& rig) {
+  Trajectory camera;
+  camera.reserve(body.size());
+  for (const StampedPose& s : body) {
+    camera.push_back({s.t - rig.camera_time_offset, s.pose * rig.T_body_camera});
+  }
+  return camera;
+}
+
+}  // namespace evit

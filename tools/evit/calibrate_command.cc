@@ -1,0 +1,94 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "common/config/config.h"
+#include "common/config/rig_file.h"
+#include "tools/calibration/calibration_report.h"
+#include "tools/calibration/recorded_motion.h"
+#include "tools/evit/commands.h"
+#include "tools/evit/options.h"
+#include "tools/run/run.h"
+
+namespace evit {
+namespace {
+
+struct CalibrateOptions {
+  RunJob job;  // the event-only run
+  std::string pose, from, seconds, out, poses;
+};
+
+// Runs the event-only tracker; the file of its poses.
+std::string Track(CalibrateOptions* o) {
+  RunJob& job = o->job;
+  if (o->pose.empty() && o->from.empty())
+    throw std::runtime_error("--initial-pose or --initial-from is wanted");
+  if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
+  job.initial_from = o->from;
+  if (!o->seconds.empty()) job.seconds = ParseSeconds(o->seconds);
+  if (job.config.empty()) job.config = ConfigFile("evt.textproto");
+  if (LoadTracker(job.config).method() != config::Tracker::EVT) {
+    throw std::runtime_error(job.config +
+                             ": method: EVT is wanted, as in config/evt.textproto: poses that used the IMU "
+                             "know the extrinsics already");
+  }
+  if (job.out.empty()) job.out = o->out + ".evt";
+  job.command = "evit calibrate";
+  std::printf("tracking the camera by its events alone\n");
+  std::fflush(stdout);
+  if (const int code = Run(job); code == 130) throw CLI::RuntimeError(code);
+  return job.out + "/trajectory.tum";
+}
+
+void Calibrate(CalibrateOptions* o) {
+  const RunJob& job = o->job;
+  const Rig before = LoadRig(job.rig);
+  const std::string poses = o->poses.empty() ? Track(o) : o->poses;
+  const Trajectory camera = CameraOf(ReadTum(poses), before);
+  std::printf("\ncalibrating from %zu poses\n", camera.size());
+  std::fflush(stdout);
+  const CameraImuCalibration found = CalibrateCameraImu(camera, ReadImu(job.log, before.imu_noise), before);
+  if (!found.success) {
+    throw std::runtime_error("not calibrated: " + found.reason + "; " + poses + " holds the camera's motion");
+  }
+  std::printf("%s", CalibrationText(before, found).c_str());
+  WriteRig(
+      o->out, Calibrated(before, found), LoadRigName(job.rig),
+      RigComment(before, found, "From " + job.log + " and " + job.map + ", starting from " + job.rig + "."));
+  const SE3 start = camera.front().pose * found.values.T_body_camera.Inverse();
+  const std::string advice = TiltAdvice(found, job.map, start);
+  std::printf("%s%srig file: %s\n", advice.empty() ? "" : "\n", advice.c_str(), o->out.c_str());
+}
+
+}  // namespace
+
+void AddCalibrateCommand(CLI::App* app) {
+  auto o = std::make_shared<CalibrateOptions>();
+  CLI::App* calibrate = app->add_subcommand(
+      "calibrate", "Extrinsics and time offset of camera and IMU, and the tilt of the map, from a recording");
+  calibrate->add_option("--log", o->job.log, "LCM log with EVENTS and IMU (evit import)")->required();
+  calibrate->add_option("--map", o->job.map, "Semi-dense map: PCD, PLY or text, metres")->required();
+  calibrate->add_option("--rig", o->job.rig, "Rig file to start from")->required();
+  auto* pose =
+      calibrate->add_option("--initial-pose", o->pose, "Body in the map at the start: \"x y z qx qy qz qw\"");
+  auto* from = calibrate->add_option("--initial-from", o->from, "Take it from this trajectory (TUM)");
+  pose->excludes(from);
+  calibrate->add_option(
+      "--poses", o->poses,
+      "OUT.evt/trajectory.tum of an earlier event-only run with the same rig file: not tracked again");
+  calibrate->add_option("--out", o->out, "Rig file to write")->required();
+  calibrate->add_option("--seconds", o->seconds, "A:B, use only this part of the log");
+  calibrate->add_option("--config", o->job.config, "Event-only tracking (default: config/evt.textproto)");
+  calibrate->add_option("--work", o->job.out, "Folder for the event-only run (default: OUT.evt)");
+  calibrate->footer(
+      "Ten to thirty seconds of lively hand-held motion, with turns about all three axes, in view of the "
+      "map.\n"
+      "Camera intrinsics, IMU noise and gravity are taken from the rig file. What the motion does not show "
+      "is\n"
+      "named, and keeps the rig file's figure.");
+  calibrate->callback([o] { Calibrate(o.get()); });
+}
+
+}  // namespace evit
