@@ -30,7 +30,7 @@ struct CameraImuPrior {
   double offset_sigma = 0.1;                                   // s
   double tilt_sigma = 0.2;                                     // rad
   double gyro_bias_sigma = 0.1;                                // rad/s
-  double accel_bias_sigma = 0.5;                               // m/s^2
+  double accel_bias_sigma = 0.1;                               // m/s^2: a sensor calibrated once
 };
 
 /// Residuals of the camera's poses.

@@ -20,7 +20,7 @@ constexpr double kOutlier = 5;         // sigmas of one axis
 constexpr double kHold = 1e-6;         // m, rad, s: sigma of what is held at the rig file's figure
 // Standard deviations above which a value counts as not observable.
 constexpr double kMaxTranslation = 0.015, kMaxRotation = 0.007, kMaxOffsetSigma = 1e-3;  // m, rad, s
-constexpr double kMaxGyroBias = 0.01, kMaxAccelBias = 0.1, kMaxTilt = 0.01;              // rad/s, m/s^2, rad
+constexpr double kMaxGyroBias = 0.01, kMaxAccelBias = 0.05, kMaxTilt = 0.005;            // rad/s, m/s^2, rad
 constexpr PoseNoise kStiff{0.03, 0.01, 1, 1};  // poses that count so little that the IMU shapes the motion
 // What a rig file's figures may be off by.
 constexpr double kTranslationPrior = 0.2, kRotationPrior = 0.2;  // m, rad
@@ -140,13 +140,13 @@ CameraImuCalibration CalibrateCameraImu(const Trajectory& camera, const std::vec
     return Failed(result, "the camera's poses and the IMU do not fit: do map, rig and log belong together?");
   }
   if (!batch.Solve(prior, result.noise, false)) return Failed(result, kDiverged);
-  result.unobservable = FindUnobservable(batch.covariance());
+  result.covariance = batch.covariance();
+  result.unobservable = FindUnobservable(result.covariance);
   if (Hold(result.unobservable, &prior) && !batch.Solve(prior, result.noise, false))
     return Failed(result, kDiverged);
   result.n_poses = static_cast<int>(batch.size());
   result.values = batch.values();
   result.values.offset += rig.camera_time_offset;
-  result.covariance = batch.covariance();
   result.success = true;
   return result;
 }

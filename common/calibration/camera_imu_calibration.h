@@ -21,6 +21,7 @@ struct CameraImuCalibration {
   bool success = false;
   std::string reason;  // for a person, where it failed
   CameraImuValues values;
+  /// Before unobservable values are held: a held figure may be wrong, and others lean on it.
   CameraImuCovariance covariance = CameraImuCovariance::Zero();
   std::vector<Unobservable> unobservable;
   PoseNoise noise;                                    // of the camera's poses
@@ -35,7 +36,9 @@ struct CameraImuCalibration {
 /// aligned with the gyro's in closed form (rate_alignment.h), then everything is solved for at once
 /// (camera_imu_batch.h): with the poses' noise and its correlation in time measured from the residuals, poses
 /// far off left out, and the sigmas honest therefore. What would be known worse than a rig file's figure is
-/// (1.5 cm, 0.4 deg, 1 ms) is held at `rig`'s value, direction by direction, and named.
+/// (1.5 cm, 0.4 deg, 1 ms) is held at `rig`'s value, direction by direction, and named; so are biases known
+/// to no better than 10 mrad/s and 50 mm/s^2 and a tilt to 0.3 deg, which trade off where the body leans
+/// little.
 ///
 /// `camera`: T_map_camera in order of time, stamped by the sensor (no offset added). `rig`: the figures to
 /// start from, noise densities and gravity. An IMU recording with holes over 50 ms is used up to them.

@@ -9,14 +9,17 @@
 /// A synthetic recording: a rig in motion, its IMU's samples and its camera's poses in a map.
 namespace evit::test {
 
-/// Hand-held, about all three axes: the body's x axis of Handheld() always stays level, and gravity says
-/// little of it.
-inline Motion Lively(Utime t) {
+/// Turns about all three axes, and leans by up to `lean` rad more, slowly, about the level ones: what the
+/// accelerometer's bias and the direction of gravity do differs only where the body leans. (The body's x axis
+/// of Handheld() always stays level.)
+inline Motion Turning(Utime t, double lean) {
   Motion m = Handheld(t);
   const double s = ToSeconds(t);
   const double yaw = 0.5 * std::sin(4.3 * s), yaw_rate = 0.5 * 4.3 * std::cos(4.3 * s);
-  const double pitch = 0.4 * std::sin(3.7 * s + 1.9), pitch_rate = 0.4 * 3.7 * std::cos(3.7 * s + 1.9);
-  const double roll = 0.4 * std::sin(5.9 * s + 0.7), roll_rate = 0.4 * 5.9 * std::cos(5.9 * s + 0.7);
+  const double pitch = 0.4 * std::sin(3.7 * s + 1.9) + lean * std::sin(1.3 * s),
+               pitch_rate = 0.4 * 3.7 * std::cos(3.7 * s + 1.9) + lean * 1.3 * std::cos(1.3 * s);
+  const double roll = 0.4 * std::sin(5.9 * s + 0.7) + lean * std::sin(1.7 * s + 0.5),
+               roll_rate = 0.4 * 5.9 * std::cos(5.9 * s + 0.7) + lean * 1.7 * std::cos(1.7 * s + 0.5);
   const Eigen::Quaterniond q_pitch = ExpSO3({0, pitch, 0}), q_roll = ExpSO3({roll, 0, 0});
   m.T_world_body.q = ExpSO3({0, 0, yaw}) * q_pitch * q_roll;
   m.rate = Eigen::Vector3d(roll_rate, 0, 0) +
@@ -24,6 +27,12 @@ inline Motion Lively(Utime t) {
                (Eigen::Vector3d(0, pitch_rate, 0) + q_pitch.conjugate() * Eigen::Vector3d(0, 0, yaw_rate));
   return m;
 }
+
+/// Hand-held, to 23 deg this way and that: the accelerometer's bias and the tilt of the map show weakly.
+inline Motion Lively(Utime t) { return Turning(t, 0); }
+
+/// As one moves a rig to calibrate it, to 60 deg: all is observable.
+inline Motion Leaning(Utime t) { return Turning(t, 0.65); }
 
 struct Recording {
   Rig rig;  // the true one
@@ -34,7 +43,7 @@ struct Recording {
   double pose_noise = 1;  // of 1 mm and 1 mrad, white, and 2 mm and 1 mrad that wander over a second
   double outliers = 0;    // 0..1: share of poses that are 10 cm and 0.2 rad off
   unsigned seed = 1;
-  std::function<Motion(Utime)> motion = Lively;
+  std::function<Motion(Utime)> motion = Leaning;
 
   Recording() {
     rig.T_body_camera = {ExpSO3({1.2, -1.2, 1.25}), {0.129, 0.079, 0.025}};
@@ -94,13 +103,13 @@ struct Recording {
     return camera;
   }
 
-  /// The rig as a user has it: off by 1.8 deg, 2.6 cm and 5 ms.
-  Rig Wrong() const {
+  /// The rig as a user has it: off by 1.8 deg, 2.6 cm and 5 ms, or `times` as much.
+  Rig Wrong(double times = 1) const {
     Rig wrong = rig;
     Eigen::Matrix<double, 6, 1> off;
     off << 0.015, -0.015, 0.015, 0.018, -0.018, 0.018;
-    wrong.T_body_camera = wrong.T_body_camera.Plus(off);
-    wrong.camera_time_offset += 5'000;
+    wrong.T_body_camera = wrong.T_body_camera.Plus(times * off);
+    wrong.camera_time_offset += std::llround(times * 5'000);
     return wrong;
   }
 };

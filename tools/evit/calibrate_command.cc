@@ -84,7 +84,8 @@ void AddCalibrateCommand(CLI::App* app) {
   calibrate->add_option("--work", o->job.out, "Folder for the event-only run (default: OUT.evt)");
   calibrate->footer(
       "Ten to thirty seconds of lively hand-held motion, with turns about all three axes, in view of the "
-      "map.\n"
+      "map;\n"
+      "lean the rig to 45 degrees and more, each way, to tell accelerometer bias from tilt of the map.\n"
       "Camera intrinsics, IMU noise and gravity are taken from the rig file. What the motion does not show "
       "is\n"
       "named, and keeps the rig file's figure.");
