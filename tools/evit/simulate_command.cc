@@ -18,7 +18,8 @@ namespace {
 
 struct Options {
   SimulationSettings settings;
-  std::string rig_path, frame = "auto", seconds, lamp, tremor;
+  std::string rig_path, frame = "auto", seconds, lamp, dark, tremor, holes;
+  std::string room = "furnished";
 };
 
 // "A:B" in seconds.
@@ -38,6 +39,18 @@ const CLI::Validator kTremor(
       return ParseTremor(text, &tremor) ? std::string() : "'" + text + "': must be HZ:MM:DEG, e.g. 7:7:1.1";
     },
     "HZ:MM:DEG");
+
+bool ParseHoles(const std::string& text, MapHoles* holes) {
+  char rest = 0;
+  return std::sscanf(text.c_str(), "%lf:%lf%c", &holes->share, &holes->diameter_m, &rest) == 2;
+}
+
+const CLI::Validator kHoles(
+    [](const std::string& text) {
+      MapHoles holes;
+      return ParseHoles(text, &holes) ? std::string() : "'" + text + "': must be SHARE:METRES, e.g. 0.5:0.6";
+    },
+    "SHARE:METRES");
 
 const CLI::Validator kRange(
     [](const std::string& text) {
@@ -94,11 +107,19 @@ void Run(Options* options) {
   if (options->frame == "marker-yup") s.trajectory.frame = TrajectoryFrame::kMarkerYUp;
   if (!options->seconds.empty()) ParseRange(options->seconds, &s.trajectory.begin_s, &s.trajectory.end_s);
   if (!options->tremor.empty()) ParseTremor(options->tremor, &s.trajectory.tremor);
+  if (!options->holes.empty()) ParseHoles(options->holes, &s.map_holes);
+  if (!options->dark.empty()) ParseRange(options->dark, &s.dark_from_s, &s.dark_to_s);
+  s.room = options->room == "plain" ? RoomKind::kPlain : RoomKind::kFurnished;
   if (!options->lamp.empty()) ParseRange(options->lamp, &s.lamp_off_s, &s.lamp_on_s);
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const SimulationSummary summary =
       Simulate(s, rig, "simulated, from " + std::filesystem::path(rig_path).filename().string(),
                terminal ? std::function<void(double)>(PrintProgress) : nullptr);
+  if (s.map_only) {
+    std::printf("%s: map points %zu of %d views, written to %s\n", summary.name.c_str(), summary.n_map_points,
+                summary.n_map_views, s.out.c_str());
+    return;
+  }
   PrintSummary(s, summary);
 }
 
@@ -121,6 +142,12 @@ void AddSimulateCommand(CLI::App* app) {
   command->add_option("--threads", s.threads, "Threads; the result is the same with any number");
   command->add_option("--preview", s.previews, "Pictures to write: image | events | map on events");
   command->add_option("--lamp", options->lamp, "The lamp goes off and on again, s")->check(kRange);
+  command->add_option("--dark", options->dark, "The lens is covered, s; it takes 0.1 s before and after")
+      ->check(kRange);
+  command->add_option("--room", options->room, "furnished, or plain: hardly any texture")
+      ->check(CLI::IsMember({"furnished", "plain"}));
+  command->add_flag("--moving-box", s.moving_box,
+                    "A textured box moves before the camera; it is not in the map");
   command->add_option("--lamp-share", s.lamp_share, "Share of the light that stays");
 
   command
@@ -166,6 +193,16 @@ void AddSimulateCommand(CLI::App* app) {
   add("Map", "--map-outlier-distance", &s.map.outlier_m, "m");
   add("Map", "--map-voxel", &s.map.voxel_m, "m");
   add("Map", "--map-max-points", &s.map.max_points, "Points kept at most");
+  command
+      ->add_option("--map-holes", options->holes,
+                   "This share of the map is missing, in balls of this diameter")
+      ->check(kHoles)
+      ->group("Map");
+  command
+      ->add_flag("--map-only", s.map_only,
+                 "Write map.pcd (and rgbd/) alone: another map for a sequence simulated before with the same "
+                 "options")
+      ->group("Map");
   command
       ->add_flag("--rgbd", s.rgbd,
                  "Also write the map's views: rgbd/{images,depth}/*.png, poses.txt, K.txt (grey; depth in "

@@ -1,12 +1,15 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <complex>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <set>
 
+#include "common/config/config.h"
 #include "tools/simulation/builtin_motion.h"
 #include "tools/simulation/room.h"
 #include "tools/simulation/trajectory_source.h"
@@ -15,6 +18,7 @@ namespace evit {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::HasSubstr;
 
 Rig TestRig() {
   Rig rig;
@@ -44,11 +48,17 @@ double Amplitude(const PoseSpline& shaken, const PoseSpline& calm, double hz, in
   return 2 * std::abs(sum) / n;
 }
 
-// The default variant is the motion as it always was: a few poses of it, as printed before there were variants.
+// The default variant is the motion as it always was: a few poses of it, as printed before there were
+// variants.
 TEST(BuiltinMotion, FirstVariantStaysWhatItWas) {
   const Rig rig = TestRig();
-  for (const auto& [name, row] : std::map<std::string, const char*>{
-           {"handheld", "1642661139.500000 0.138466509 0.108745867 -0.0976602324 0.498842212 -0.484582872 0.477723932 0.536764131"}, {"fast", "1642661139.500000 -0.020962343 0.112659232 -0.126903589 0.337582882 -0.508112802 0.496609266 0.61744507"}}) {
+  for (const auto& [name, row] :
+       std::map<std::string, const char*>{{"handheld",
+                                           "1642661139.500000 0.138466509 0.108745867 -0.0976602324 "
+                                           "0.498842212 -0.484582872 0.477723932 0.536764131"},
+                                          {"fast",
+                                           "1642661139.500000 -0.020962343 0.112659232 -0.126903589 "
+                                           "0.337582882 -0.508112802 0.496609266 0.61744507"}}) {
     const Trajectory poses = MakeBuiltinMotion(*FindBuiltinMotion(name), 2, 1, rig);
     EXPECT_EQ(TumLine(poses[300]), row) << name;
   }
@@ -117,7 +127,8 @@ TEST(BuiltinMotion, VariantsDiffer) {
   EXPECT_EQ(seen.size(), 10U);
 }
 
-// At three times the speed the same poses come in a third of the time, and turn rates are three times as high.
+// At three times the speed the same poses come in a third of the time, and turn rates are three times as
+// high.
 TEST(PlaySpeed, IsTheSameWayInLessTime) {
   const Motion slow = Builtin("handheld", 6);
   Trajectory poses;
@@ -183,6 +194,62 @@ TEST(TremorOfAHand, IsInTheMotionThatIsLoaded) {
   EXPECT_GT(shaken.turn_mean, calm.turn_mean + 0.2);  // 1.1 degrees at 7 Hz: up to 0.84 rad/s
   settings.tremor.hz = 100;
   EXPECT_THROW(LoadMotion(settings, TestRig()), std::runtime_error);
+}
+
+// A marker body somewhere else than the IMU.
+Rig MarkerRig() {
+  Rig rig = TestRig();
+  rig.T_marker_body = {ExpSO3(Eigen::Vector3d(-0.4, 0.9, 2)), Eigen::Vector3d(0.07, 0, -0.09)};
+  return rig;
+}
+
+TEST(LoadMotion, TellsMarkerPosesFromBodyPoses) {
+  const Rig rig = MarkerRig();
+  TrajectorySettings settings;
+  settings.source = "builtin:handheld";
+  settings.duration_s = 2;
+  const Motion body = LoadMotion(settings, rig);
+  const SE3 T_yup_zup(ExpSO3(Eigen::Vector3d(-1.5707963267948966, 0, 0)), Eigen::Vector3d::Zero());
+  Trajectory raw;
+  for (Utime t = body.begin; t < body.end; t += 8333) {
+    raw.push_back({t, T_yup_zup * body.spline.Pose(t) * rig.T_marker_body.Inverse()});
+  }
+  const fs::path path = fs::temp_directory_path() / ("evit_raw_" + std::to_string(getpid()) + ".tum");
+  WriteTum(path.string(), raw);
+  settings.source = path.string();
+  const Motion again = LoadMotion(settings, rig);
+  fs::remove(path);
+  EXPECT_THAT(again.note, HasSubstr("poses read as marker-yup"));
+  const Utime t = body.begin + 1'000'000;
+  EXPECT_LT((again.spline.Pose(t).p - body.spline.Pose(t).p).norm(), 1e-4);
+  EXPECT_LT(AngularDistance(again.spline.Pose(t).q, body.spline.Pose(t).q), 1e-3);
+}
+
+// The recordings themselves, and what is simulated from them.
+TEST(LoadMotion, TellsTheFrameOfRealFiles) {
+  const char* shared = std::getenv("EVIT_SHARED_DATA");
+  const fs::path data = shared ? fs::path(shared) : fs::path(EVIT_SOURCE_DIR) / "../shared/data";
+  const fs::path folder = data / "vector/groundtruth";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not here; set EVIT_SHARED_DATA";
+  const Rig rig = LoadRig(EVIT_SOURCE_DIR "/config/vector/rig.textproto");
+  const Scene scene = MakeRoom(1);
+  for (const char* name : {"robot_normal", "mountain_normal", "sofa_fast"}) {
+    TrajectorySettings settings;
+    settings.source = (folder / (std::string(name) + ".txt")).string();
+    settings.begin_s = 5;
+    settings.end_s = 15;
+    Motion motion = LoadMotion(settings, rig);
+    EXPECT_THAT(motion.note, HasSubstr("poses read as marker-yup")) << name;
+    PlaceInRoom(rig, scene, &motion);
+    Trajectory body;
+    for (Utime t = motion.begin; t < motion.end; t += 5000) body.push_back({t, motion.spline.Pose(t)});
+    const fs::path path = fs::temp_directory_path() / ("evit_body_" + std::to_string(getpid()) + ".tum");
+    WriteTum(path.string(), body);
+    settings.source = path.string();
+    settings.begin_s = settings.end_s = 0;
+    EXPECT_THAT(LoadMotion(settings, rig).note, HasSubstr("poses read as body")) << name;
+    fs::remove(path);
+  }
 }
 
 }  // namespace
