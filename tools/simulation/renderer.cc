@@ -48,16 +48,18 @@ Renderer::Renderer(const Camera& camera, const Scene& scene)
   }
 }
 
-void Renderer::Render(const SE3& T_map_camera, View* view) const {
+void Renderer::Render(const SE3& T_map_camera, View* view, const std::vector<Surface>& moving) const {
   const std::size_t n = ray_x_.size();
   view->image.assign(n, 0.0F);
   view->inverse_depth.assign(n, 0.0F);
   view->surface.assign(n, -1);
-  std::vector<PlacedSurface> placed(scene_.surfaces.size());
+  const std::size_t n_scene = scene_.surfaces.size();
+  std::vector<PlacedSurface> placed(n_scene + moving.size());
   const Eigen::Matrix3d R = T_map_camera.R();
   for (std::size_t i = 0; i < placed.size(); ++i) {
+    const Surface& surface = i < n_scene ? scene_.surfaces[i] : moving[i - n_scene];
     const bool seen =
-        PlaceSurface(scene_.surfaces[i], static_cast<std::int32_t>(i), R, T_map_camera.p, focal_, &placed[i]);
+        PlaceSurface(surface, static_cast<std::int32_t>(i), R, T_map_camera.p, focal_, &placed[i]);
     if (seen) DrawDepth(placed[i], view);
   }
   Shade(placed, view);

@@ -26,7 +26,8 @@ class Renderer {
  public:
   Renderer(const Camera& camera, const Scene& scene);
 
-  void Render(const SE3& T_map_camera, View* view) const;
+  /// `moving`: further surfaces, where they are now; View::surface counts them after the scene's.
+  void Render(const SE3& T_map_camera, View* view, const std::vector<Surface>& moving = {}) const;
 
   const Camera& camera() const { return camera_; }
   const Scene& scene() const { return scene_; }
