@@ -12,6 +12,7 @@
 #include <sstream>
 #include <thread>
 
+#include "common/evaluation/covariance_file.h"
 #include "common/evaluation/trajectory_error.h"
 
 namespace evit {
@@ -117,10 +118,16 @@ TEST_F(WholeSystemTest, TracksTheSampleLogBitIdenticallyEveryTime) {
   ExpectGood(Path("a/smoothed.tum"), 0.015, 0.6);
   EXPECT_EQ(ReadAll(Path("a/trajectory.tum")), ReadAll(Path("b/trajectory.tum")));
   EXPECT_EQ(ReadAll(Path("a/smoothed.tum")), ReadAll(Path("b/smoothed.tum")));
+  EXPECT_EQ(ReadAll(Path("a/covariance.csv")), ReadAll(Path("b/covariance.csv")));
+  const Covariances covariances = ReadCovariances(Path("a/covariance.csv"));
+  const Trajectory online = ReadTum(Path("a/trajectory.tum"));
+  ASSERT_EQ(covariances.size(), online.size());
+  for (std::size_t k = 0; k < online.size(); ++k) EXPECT_EQ(covariances[k].t, online[k].t);
   EXPECT_GT(fs::file_size(Path("a/trajectory.png")), 10'000U);
+  EXPECT_GT(fs::file_size(Path("a/consistency.png")), 10'000U);
   const std::string report = ReadAll(Path("a/report.json"));
   for (const char* key : {"real_time_factor", "final_mode", "TRACKING", "granted_receive_buffer", "mean_ms",
-                          "n_event", "position_rmse_cm", "mode_changes"}) {
+                          "n_event", "position_rmse_cm", "mode_changes", "orientation_nees"}) {
     EXPECT_THAT(report, HasSubstr(key));
   }
 }

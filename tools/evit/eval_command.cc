@@ -4,13 +4,20 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "common/evaluation/consistency.h"
 #include "common/evaluation/trajectory_error.h"
 #include "tools/evit/commands.h"
+#include "tools/run/consistency_plot.h"
 
 namespace evit {
 namespace {
 
 constexpr double kDegrees = 57.295779513082323;
+
+struct EvalOptions {
+  std::string truth, estimate, covariance, plot;
+  bool json = false;
+};
 
 struct Row {
   const char* name;
@@ -28,6 +35,18 @@ nlohmann::json ToJson(const TrajectoryError& e) {
           {"orientation_max_deg", kDegrees * e.orientation_max}};
 }
 
+nlohmann::json ToJson(const Nees& nees) {
+  return {{"pairs", nees.n},   {"dof", nees.dof},       {"mean_per_dof", nees.mean_per_dof()},
+          {"mean", nees.mean}, {"median", nees.median}, {"share_within_95", nees.share_in_95}};
+}
+
+nlohmann::json ToJson(const Consistency& c) {
+  return {{"position_nees", ToJson(c.position)},
+          {"orientation_nees", ToJson(c.orientation)},
+          {"pose_nees", ToJson(c.pose)},
+          {"poses_without_covariance", c.without_covariance}};
+}
+
 void PrintCell(const TrajectoryError& e) {
   if (e.n_pairs == 0) {
     std::printf("  %16s", "-");
@@ -36,16 +55,26 @@ void PrintCell(const TrajectoryError& e) {
   }
 }
 
-void Evaluate(const std::string& truth_file, const std::string& estimate_file, bool json) {
-  const Trajectory truth = ReadTum(truth_file), estimate = ReadTum(estimate_file);
+void Evaluate(const EvalOptions& o) {
+  const Trajectory truth = ReadTum(o.truth), estimate = ReadTum(o.estimate);
   const TrajectoryError whole = AbsoluteError(truth, estimate, Alignment::kNone);
   if (whole.n_pairs == 0) {
-    throw std::runtime_error(estimate_file + " and " + truth_file +
+    throw std::runtime_error(o.estimate + " and " + o.truth +
                              " share no time: are they of the same sequence?");
   }
   const TrajectoryError relative = RelativeError(truth, estimate, kMicrosPerSecond);
-  if (json) {
-    nlohmann::json out{{"truth", truth_file}, {"estimate", estimate_file}, {"coverage", whole.coverage}};
+  Consistency consistency;
+  if (!o.covariance.empty()) {
+    consistency = ConsistencyOf(truth, estimate, ReadCovariances(o.covariance));
+    if (consistency.pose.n == 0) {
+      throw std::runtime_error(o.covariance + " has no covariance for the poses of " + o.estimate +
+                               ": are they of the same run?");
+    }
+    if (!o.plot.empty()) PlotConsistency(o.plot, ConsistencyText(consistency), consistency);
+  }
+  if (o.json) {
+    nlohmann::json out{{"truth", o.truth}, {"estimate", o.estimate}, {"coverage", whole.coverage}};
+    if (!o.covariance.empty()) out["consistency"] = ToJson(consistency);
     for (const Row& row : kRows) {
       nlohmann::json& j = out["ate"][row.name];
       j["all"] = ToJson(AbsoluteError(truth, estimate, row.alignment));
@@ -73,21 +102,22 @@ void Evaluate(const std::string& truth_file, const std::string& estimate_file, b
     std::printf("RPE over 1 s: %.2f cm, %.2f deg\n", 100 * relative.position_rmse,
                 kDegrees * relative.orientation_rmse);
   }
+  if (!o.covariance.empty()) std::printf("%s\n", ConsistencyText(consistency).c_str());
 }
 
 }  // namespace
 
 void AddEvalCommand(CLI::App* app) {
-  struct Options {
-    std::string truth, estimate;
-    bool json = false;
-  };
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<EvalOptions>();
   CLI::App* eval = app->add_subcommand("eval", "Score a trajectory against ground truth (TUM files)");
   eval->add_option("--truth", o->truth, "Ground truth, body in the map frame")->required();
   eval->add_option("--estimate", o->estimate, "Trajectory to score")->required();
+  auto* covariance = eval->add_option("--covariance", o->covariance,
+                                      "covariance.csv of the same run: scores the uncertainty too (NEES)");
+  eval->add_option("--plot", o->plot, "With --covariance: PNG of the errors between their 2-sigma bounds")
+      ->needs(covariance);
   eval->add_flag("--json", o->json, "Machine-readable output");
-  eval->callback([o] { Evaluate(o->truth, o->estimate, o->json); });
+  eval->callback([o] { Evaluate(*o); });
 }
 
 }  // namespace evit

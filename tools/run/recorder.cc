@@ -13,6 +13,14 @@ StampedPose PoseOf(const node_state_t& node) {
           {Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(), Eigen::Vector3d(node.position)}};
 }
 
+Matrix6d CovarianceOf(const window_state_t& message) {
+  Matrix6d covariance;
+  for (int r = 0; r < 6; ++r) {
+    for (int c = 0; c < 6; ++c) covariance(r, c) = message.covariance[r][c];
+  }
+  return covariance;
+}
+
 }  // namespace
 
 Recorder::Recorder(Bus* bus, const Channels& channels) {
@@ -39,6 +47,7 @@ void Recorder::OnWindow(const window_state_t& message) {
   const StampedPose newest = PoseOf(message.node.back());
   if (online_.empty() || newest.t > online_.back().t) {
     online_.push_back(newest);
+    covariances_.push_back({newest.t, CovarianceOf(message)});
     solve_ms_ += message.solve_ms;
   }
   // What is older than the window's first node has left it.
@@ -70,6 +79,7 @@ Trajectory Recorder::smoothed() const {
 
 void Recorder::StartOver() {
   online_.clear();
+  covariances_.clear();
   left_.clear();
   window_.clear();
 }

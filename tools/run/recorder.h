@@ -8,6 +8,7 @@
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
+#include "common/evaluation/covariance_file.h"
 #include "common/evaluation/trajectory.h"
 #include "evit/service_status_t.hpp"
 #include "evit/tracker_mode_t.hpp"
@@ -30,6 +31,8 @@ class Recorder {
 
   /// Every keyframe's pose as it was first estimated.
   const Trajectory& online() const { return online_; }
+  /// Its covariance, one for each of online().
+  const Covariances& covariances() const { return covariances_; }
   /// Every keyframe's pose as it left the window; those still in it as they are now.
   Trajectory smoothed() const;
 
@@ -57,6 +60,7 @@ class Recorder {
   void OnMode(const tracker_mode_t& message);
 
   Trajectory online_;
+  Covariances covariances_;
   std::map<Utime, StampedPose>
       window_;  // those in the window; keyframe numbers begin anew with frame_builder
   Trajectory left_;

@@ -38,6 +38,7 @@ class RecorderTest : public ::testing::Test {
     m.utime = m.node.back().utime;
     m.keyframe_seq = last;
     m.solve_ms = 4;
+    m.covariance[0][4] = m.covariance[4][0] = last;
     Send(channels_.window_state, m);
   }
   void SendMode(std::int64_t keyframe, int mode, const std::string& reason) {
@@ -81,6 +82,19 @@ TEST_F(RecorderTest, OnlineIsTheFirstEstimateSmoothedTheLast) {
   EXPECT_THAT(Xs(recorder_.online()), ElementsAre(200.1, 300.2, 400.3));
   EXPECT_THAT(Xs(recorder_.smoothed()), ElementsAre(0.1, 100.2, 200.2, 300.3, 400.3));
   EXPECT_EQ(recorder_.mean_solve_ms(), 4);
+}
+
+TEST_F(RecorderTest, CovariancesAreInStepWithTheOnlinePoses) {
+  SendWindow(0, 2, 0.1);
+  SendWindow(0, 2, 0.2);  // repeated
+  SendWindow(1, 3, 0.2);
+  ASSERT_EQ(recorder_.covariances().size(), recorder_.online().size());
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(recorder_.covariances()[k].t, recorder_.online()[k].t);
+    EXPECT_EQ(recorder_.covariances()[k].covariance(0, 4), 2.0 + static_cast<double>(k));
+  }
+  recorder_.StartOver();
+  EXPECT_TRUE(recorder_.covariances().empty());
 }
 
 TEST_F(RecorderTest, RepeatedOrOlderStatesAddNothing) {

@@ -21,6 +21,15 @@ void Fill(const TrajectoryError& error, report::Error* out) {
   out->set_orientation_max_deg(kDegrees * error.orientation_max);
 }
 
+void Fill(const Nees& nees, report::Nees* out) {
+  out->set_pairs(nees.n);
+  out->set_dof(nees.dof);
+  out->set_mean_per_dof(nees.mean_per_dof());
+  out->set_mean(nees.mean);
+  out->set_median(nees.median);
+  out->set_share_within_95(nees.share_in_95);
+}
+
 const char* ModeName(int mode) {
   static constexpr const char* kNames[] = {"BOOTSTRAPPING", "TRACKING", "LOST"};
   return mode >= 0 && mode < 3 ? kNames[mode] : "?";
@@ -66,6 +75,14 @@ void FillErrors(const Trajectory& truth, const Trajectory& estimate, report::Rep
     if (const auto e = milestone(0.5); e.n_pairs > 0) Fill(e, out->mutable_at_50_percent());
     if (const auto e = milestone(1.0); e.n_pairs > 0) Fill(e, out->mutable_at_100_percent());
   }
+}
+
+void FillConsistency(const Consistency& consistency, report::Report* report) {
+  report::Consistency* out = report->mutable_consistency();
+  Fill(consistency.position, out->mutable_position_nees());
+  Fill(consistency.orientation, out->mutable_orientation_nees());
+  Fill(consistency.pose, out->mutable_pose_nees());
+  out->set_poses_without_covariance(consistency.without_covariance);
 }
 
 void WriteReport(const std::string& path, const report::Report& report) {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "common/evaluation/consistency.h"
 #include "tools/run/recorder.h"
 #include "tools/run/report.pb.h"
 
@@ -12,6 +13,9 @@ void FillFromRecorder(const Recorder& recorder, report::Report* report);
 
 /// Adds ATE in the three alignments and the milestones, and coverage.
 void FillErrors(const Trajectory& truth, const Trajectory& estimate, report::Report* report);
+
+/// Adds how well the covariances fit the errors.
+void FillConsistency(const Consistency& consistency, report::Report* report);
 
 /// Writes the report as JSON, atomically. Throws std::runtime_error naming the file.
 void WriteReport(const std::string& path, const report::Report& report);

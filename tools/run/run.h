@@ -23,9 +23,10 @@ struct RunJob {
   std::string command;  // for the report
 };
 
-/// Starts the services, waits for the end and writes trajectory.tum, smoothed.tum, report.json and
-/// trajectory.png into `out`. Returns 0 where it tracked to the end, 2 where it was LOST or never tracked.
-/// Throws std::runtime_error where it could not run: a file cannot be used, a service died.
+/// Starts the services, waits for the end and writes trajectory.tum, smoothed.tum, covariance.csv,
+/// report.json, trajectory.png and, with truth, consistency.png into `out`. Returns 0 where it tracked to the
+/// end, 2 where it was LOST or never tracked. Throws std::runtime_error where it could not run: a file cannot
+/// be used, a service died.
 int Run(const RunJob& job);
 
 }  // namespace evit

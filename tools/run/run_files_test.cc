@@ -10,6 +10,7 @@
 #include "common/bus/log_file.h"
 #include "common/bus/sample_messages.h"
 #include "common/map/map_file.h"
+#include "tools/run/consistency_plot.h"
 #include "tools/run/plot.h"
 #include "tools/run/report_writer.h"
 #include "tools/run/run_inputs.h"
@@ -174,6 +175,37 @@ TEST_F(RunFilesTest, ReportSaysWhatTheErrorsAre) {
   EXPECT_FALSE(json["ate"][0].contains("at_100_percent"));  // not reached
   EXPECT_THAT([&] { WriteReport(Path("no/report.json"), report); },
               ThrowsMessage<std::runtime_error>(HasSubstr("no/report.json")));
+}
+
+TEST_F(RunFilesTest, ReportAndPlotSayHowHonestTheCovarianceIs) {
+  Trajectory truth, estimate;
+  Covariances covariances;
+  for (int k = 0; k <= 100; ++k) {
+    const Utime t = kStart + Utime{10'000} * k;
+    truth.push_back({t, At(k)});
+    SE3 pose = At(k);
+    pose.p.y() += 0.02;
+    estimate.push_back({t, pose});
+    covariances.push_back({t, 1e-4 * Matrix6d::Identity()});
+  }
+  const Consistency consistency = ConsistencyOf(truth, estimate, covariances);
+  report::Report report;
+  FillConsistency(consistency, &report);
+  WriteReport(Path("report.json"), report);
+  nlohmann::json json;
+  std::ifstream(Path("report.json")) >> json;
+  EXPECT_NEAR(json["consistency"]["position_nees"]["mean_per_dof"], 4.0 / 3, 1e-6);  // 2 cm at 1 cm sigma
+  EXPECT_NEAR(json["consistency"]["orientation_nees"]["mean"], 0, 1e-6);
+  EXPECT_EQ(json["consistency"]["pose_nees"]["dof"], 6);
+  EXPECT_EQ(json["consistency"]["pose_nees"]["share_within_95"], 1);
+  for (const bool scored : {true, false}) {
+    PlotConsistency(Path("plot.png"), "title", scored ? consistency : Consistency{});
+    const cv::Mat image = cv::imread(Path("plot.png"));
+    EXPECT_GT(image.cols, 1000);
+    cv::Mat bounds;
+    cv::inRange(image, cv::Scalar(170, 170, 170), cv::Scalar(170, 170, 170), bounds);
+    EXPECT_EQ(cv::countNonZero(bounds) > 5000, scored);  // the legend is there always
+  }
 }
 
 TEST_F(RunFilesTest, PlotsWithAndWithoutTruthOrPoses) {

@@ -110,7 +110,8 @@ RunInputs PrepareRun(const RunJob& job) {
                              (error ? " (" + error.message() + ")" : ""));
   }
   // Results of an earlier run must not pass for this one's.
-  for (const char* name : {"trajectory.tum", "smoothed.tum", "report.json", "trajectory.png"}) {
+  for (const char* name : {"trajectory.tum", "smoothed.tum", "covariance.csv", "report.json",
+                           "trajectory.png", "consistency.png"}) {
     std::filesystem::remove(std::filesystem::path(job.out) / name, error);
   }
   return inputs;

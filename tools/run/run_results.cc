@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "tools/run/consistency_plot.h"
 #include "tools/run/plot.h"
 #include "tools/run/report_writer.h"
 
@@ -142,21 +143,34 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
   FillRestarts(pipeline, outcome, &report);
   if (outcome.latency != nullptr) FillLatency(*outcome.latency, &report);
   const Trajectory& online = recorder.online();
-  if (!inputs.truth.empty() && !online.empty()) FillErrors(inputs.truth, online, &report);
+  Consistency consistency;
+  if (!inputs.truth.empty() && !online.empty()) {
+    FillErrors(inputs.truth, online, &report);
+    consistency = ConsistencyOf(inputs.truth, online, recorder.covariances());
+    FillConsistency(consistency, &report);
+  }
 
   WriteTum(job.out + "/trajectory.tum", online);
   WriteTum(job.out + "/smoothed.tum", recorder.smoothed());
+  WriteCovariances(job.out + "/covariance.csv", recorder.covariances());
   WriteReport(job.out + "/report.json", report);
   const std::string title = Title(job, report);
   PlotRun(job.out + "/trajectory.png", title, inputs.truth, online);
 
   std::printf("%s\n", title.c_str());
+  const bool scored = !consistency.errors.empty();
+  if (scored) {
+    const std::string text = ConsistencyText(consistency);
+    PlotConsistency(job.out + "/consistency.png", text, consistency);
+    std::printf("%s\n", text.c_str());
+  }
   std::printf("%d keyframes (%.0f Hz), %.1f s in %.1f s: real-time factor %.2f; %.1f ms CPU per keyframe\n",
               report.keyframes(), report.keyframe_rate_hz(), report.sequence_s(), report.wall_s(),
               report.real_time_factor(), report.cpu_ms_per_keyframe());
   if (outcome.latency != nullptr) PrintLatency(report);
   std::printf("%.0f messages lost, services restarted %zu times\n", Lost(report), pipeline.deaths().size());
-  std::printf("results: %s/{trajectory.tum,smoothed.tum,report.json,trajectory.png}\n", job.out.c_str());
+  std::printf("results: %s/{trajectory.tum,smoothed.tum,covariance.csv,report.json,trajectory.png%s}\n",
+              job.out.c_str(), scored ? ",consistency.png" : "");
   std::fflush(stdout);
   if (report.keyframes() == 0 || report.final_mode() != "TRACKING") {
     std::fprintf(stderr, "evit run: %s\n",

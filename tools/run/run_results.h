@@ -20,8 +20,8 @@ struct RunOutcome {
   const Outages* outages = nullptr;
 };
 
-/// Writes trajectory.tum, smoothed.tum, report.json and trajectory.png into job.out and says in a few lines
-/// how the run went. Returns Run()'s exit code.
+/// Writes trajectory.tum, smoothed.tum, covariance.csv, report.json, trajectory.png and, with truth,
+/// consistency.png into job.out and says in a few lines how the run went. Returns Run()'s exit code.
 int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& recorder,
                  const Pipeline& pipeline, const RunOutcome& outcome);
 

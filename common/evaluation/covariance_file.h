@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/time/utime.h"
+
+namespace evit {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// Covariance of one pose: position (m, map frame), rotation (rad, right perturbation, body frame). All zero
+/// where the tracker gave none (bootstrapping).
+struct StampedCovariance {
+  Utime t = 0;  // us
+  Matrix6d covariance = Matrix6d::Zero();
+};
+
+/// In order of time.
+using Covariances = std::vector<StampedCovariance>;
+
+/// Reads `utime,c00,c01,...,c55`: microseconds and the 21 numbers of the upper triangle, row by row; '#'
+/// comments. Throws std::runtime_error naming file, line and what is wrong (fields, non-finite, order).
+Covariances ReadCovariances(const std::string& path);
+
+/// Writes such a file atomically, nine significant digits. Throws std::runtime_error naming the file.
+void WriteCovariances(const std::string& path, const Covariances& covariances);
+
+}  // namespace evit

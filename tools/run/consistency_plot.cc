@@ -1,0 +1,44 @@
+#include "tools/run/consistency_plot.h"
+
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+#include "tools/run/canvas.h"
+
+namespace evit {
+namespace {
+
+constexpr double kDegrees = 57.295779513082323;
+constexpr double kGap = 0.3;  // s: longer ones are not bridged
+const cv::Scalar kError(150, 50, 130), kBound(170, 170, 170);
+const char* const kNames[6] = {"position x (map)",  "position y (map)",  "position z (map)",
+                               "rotation x (body)", "rotation y (body)", "rotation z (body)"};
+
+}  // namespace
+
+void PlotConsistency(const std::string& path, const std::string& title, const Consistency& consistency) {
+  cv::Mat image(1130, 1500, CV_8UC3, cv::Scalar(255, 255, 255));
+  DrawText(&image, title, {750, 36}, 0.62, Anchor::kCenter, {20, 20, 20}, 1);
+  const auto& errors = consistency.errors;
+  const Utime t0 = errors.empty() ? 0 : errors.front().t;
+  for (int k = 0; k < 6; ++k) {
+    const double unit = k < 3 ? 100 : kDegrees;
+    Chart chart{kNames[k], "time [s]", k < 3 ? "[cm]" : "[deg]", {}, false, false};
+    if (errors.empty()) chart.title += ": no ground truth";
+    Series error{"error", kError, {}, {}, true, kGap};
+    Series above{"2 sigma", kBound, {}, {}, true, kGap}, below{"", kBound, {}, {}, true, kGap};
+    for (const PoseError& row : errors) {
+      error.x.push_back(ToSeconds(row.t - t0));
+      error.y.push_back(unit * row.error[k]);
+      if (row.sigma[k] <= 0) continue;  // bootstrapping
+      for (Series* bound : {&above, &below}) bound->x.push_back(error.x.back());
+      above.y.push_back(2 * unit * row.sigma[k]);
+      below.y.push_back(-2 * unit * row.sigma[k]);
+    }
+    chart.series = {above, below, error};
+    chart.Draw(&image, {k < 3 ? 10 : 755, 60 + 355 * (k % 3), 735, 350});
+  }
+  if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
+}
+
+}  // namespace evit
