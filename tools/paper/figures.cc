@@ -1,5 +1,6 @@
 #include "tools/paper/figures.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>

@@ -108,7 +108,8 @@ TEST(Predictions, OfHigherOrderAreNearerToAnAcceleratedMotion) {
   EXPECT_NEAR(off[2], 0, 1e-6);
   EXPECT_NEAR(MeanPixelDistance(rig, Wall().points, found, found), 0, 1e-9);
   // 13.6 mm seen from 2 m away.
-  EXPECT_NEAR(MeanPixelDistance(rig, Wall().points, found, BodyAt(rig, 0.16)), rig.camera.fx * 0.0136 / 2, 0.6);
+  EXPECT_NEAR(MeanPixelDistance(rig, Wall().points, found, BodyAt(rig, 0.16)), rig.camera.fx * 0.0136 / 2,
+              0.6);
 }
 
 TEST(Figures, OfKeyframesAreDrawnFromARecording) {
@@ -142,7 +143,8 @@ TEST(Figures, OfTrajectoriesEndWhereAMethodIsLost) {
   Trajectory truth, half;
   for (int k = 0; k <= 400; ++k) {
     const double s = 0.01 * k;
-    truth.push_back({kBegin + Utime{10'000} * k, {ExpSO3(Eigen::Vector3d(0, 0, 0.1 * s)), {s, std::sin(s), 1}}});
+    truth.push_back(
+        {kBegin + Utime{10'000} * k, {ExpSO3(Eigen::Vector3d(0, 0, 0.1 * s)), {s, std::sin(s), 1}}});
     if (k <= 200) half.push_back(truth.back());
   }
   DrawTrajectories(folder / "t.png", "title", truth, {{"whole", truth}, {"half", half}, {"nothing", {}}});

@@ -3,9 +3,9 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
-#include <set>
 #include <sstream>
 
 #include "procman/command_line.h"
@@ -45,6 +45,7 @@ void AppendConditions(const PaperPlan& plan, const PaperResults& results, std::o
     const auto source = results.sources.find(sequence.name());
     if (source != results.sources.end()) *out << "| " << sequence.name() << " | " << source->second << " |\n";
   }
+  for (const std::string& line : plan.left_out) *out << "\nLeft out: " << line << ".\n";
   *out << "\n## Lost\n\n";
   const auto losses = Losses(plan.config, results);
   if (losses.empty()) *out << "Nothing.\n";

@@ -30,7 +30,9 @@ class Jobs : public ::testing::Test {
         jobs, parallel, "", [&](double share, const std::string&) { shown_ = std::max(shown_, share); },
         [this] { return interrupted_; });
   }
-  std::string Marks() const { return std::filesystem::exists(folder_ / "marks") ? ReadText(folder_ / "marks") : ""; }
+  std::string Marks() const {
+    return std::filesystem::exists(folder_ / "marks") ? ReadText(folder_ / "marks") : "";
+  }
 
   TestFolder folder_{"paper_jobs"};
   bool interrupted_ = false;
@@ -58,14 +60,15 @@ TEST_F(Jobs, AreDoneOnceAndAgainOnlyWhenTheirKeyChanges) {
 }
 
 TEST_F(Jobs, RunSideBySideAndWaitForWhatTheyNeed) {
-  std::vector<PaperJob> jobs{Make("slow", "1", "sleep 0.4"), Make("after", "1"), Make("beside", "1")};
+  std::vector<PaperJob> jobs{Make("slow", "1", "sleep 2"), Make("after", "1"), Make("beside", "1")};
   jobs[1].needs = {0};
   EXPECT_EQ(Run(jobs).done, 3U);
   EXPECT_EQ(Marks(), "beside\nslow\nafter\n");
 }
 
 TEST_F(Jobs, ThatFailTakeAlongWhatNeedsThemAndNothingElse) {
-  std::vector<PaperJob> jobs{Make("bad", "1", "echo no disk left; exit 3"), Make("needs", "1"), Make("good", "1")};
+  std::vector<PaperJob> jobs{Make("bad", "1", "echo no disk left; exit 3"), Make("needs", "1"),
+                             Make("good", "1")};
   jobs[1].needs = {0};
   const JobsOutcome outcome = Run(jobs);
   ASSERT_EQ(outcome.failures.size(), 1U);

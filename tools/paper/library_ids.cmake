@@ -12,11 +12,10 @@ function(hash_of RESULT)
 endfunction()
 hash_of(RECORDING_HASH ${RECORDING})
 hash_of(RUN_HASH ${RUN})
-file(WRITE ${OUT}.new "#pragma once
+file(WRITE ${OUT} "#pragma once
 
 namespace evit {
 inline constexpr char kRecordingLibraries[] = \"${RECORDING_HASH}\";
 inline constexpr char kRunLibraries[] = \"${RUN_HASH}\";
 }  // namespace evit
 ")
-file(COPY_FILE ${OUT}.new ${OUT} ONLY_IF_DIFFERENT)

@@ -106,6 +106,10 @@ std::vector<paper::Method> AllMethods(const paper::Paper& config) {
   return all;
 }
 
+bool IsPhotometric(const paper::Method& method) {
+  return config::Tracker::Method_Name(LoadTracker(method.config()).method()) == "EVPT";
+}
+
 std::string TrackerText(const paper::Method& method) {
   config::Tracker tracker = LoadTracker(method.config());
   if (method.has_fixed_rate_hz()) tracker.mutable_keyframes()->set_fixed_rate_hz(method.fixed_rate_hz());

@@ -14,6 +14,9 @@ paper::Paper LoadPaper(const std::string& path);
 /// Every run's settings: methods, then those motion models that are not methods too.
 std::vector<paper::Method> AllMethods(const paper::Paper& config);
 
+/// Whether a method tracks against a photometric map (EVPT).
+bool IsPhotometric(const paper::Method& method);
+
 /// The tracker settings of one method: its file with the changes asked for, as text. Throws ConfigError.
 std::string TrackerText(const paper::Method& method);
 

@@ -38,7 +38,8 @@ TEST_F(PaperConfig, ShippedOneHasThePapersSequencesAndMethods) {
   EXPECT_GE(config.method_size(), 4);
   EXPECT_EQ(config.motion_model_size(), 3);
   for (const paper::Method& m : AllMethods(config)) EXPECT_FALSE(TrackerText(m).empty()) << m.id();
-  EXPECT_EQ(AllMethods(config).size(), static_cast<std::size_t>(config.method_size()) + 2) << "evit is in both lists";
+  EXPECT_EQ(AllMethods(config).size(), static_cast<std::size_t>(config.method_size()) + 2)
+      << "evit is in both lists";
 }
 
 TEST_F(PaperConfig, ErrorsNameFileAndKey) {

@@ -42,6 +42,7 @@ PaperJob RunJobOf(const Recording& recording, const paper::Method& method, const
     } else {
       words.insert(words.end(), {"--initial-pose", start});
     }
+    if (IsPhotometric(method)) words.insert(words.end(), {"--photometric-map", recording.photometric_map});
     if (seconds) words.insert(words.end(), {"--seconds", seconds()});
     if (record) words.insert(words.end(), {"--record", folder + "/" + kKeyframeLog});
     return PaperJob::Commands{words};
@@ -62,15 +63,21 @@ void PlanRuns(const PaperOptions& options, const std::string& work, PaperPlan* p
   const Selection selection(plan->config, options.only);
   for (std::size_t k = 0; k < plan->recordings.size(); ++k) {
     const Recording& recording = plan->recordings[k];
-    const double seconds = recording.job.cost / 11;
     for (const paper::Method& method : AllMethods(plan->config)) {
       PlannedRun run;
+      run.photometric = IsPhotometric(method);
+      if (run.photometric && recording.photometric_map.empty()) {
+        plan->left_out.push_back(recording.name + " " + method.id() +
+                                 ": there is no photometric map of it; make one with `evit map photometric` (see "
+                                 "`photometric_map` in tools/paper/paper.proto)");
+        continue;
+      }
       run.recording = k;
       run.method = method;
       run.wanted = selection.Wants(*recording.sequence, method);
       run.job = RunJobOf(recording, method, work + "/runs/" + recording.name + "/" + method.id(), options.programs,
                          false, {});
-      run.job.cost = seconds * CostPerSecond(method);
+      run.job.cost = recording.seconds * CostPerSecond(method);
       plan->runs.push_back(run);
       if (recording.sequence->name() != plan->config.figure_sequence() || recording.seed != 1 ||
           method.id() != plan->config.figure_method())
@@ -120,10 +127,17 @@ std::vector<PaperJob> JobsOf(const PaperPlan& plan) {
       runs.push_back(&*plan.figure_run);
     if (runs.empty()) continue;
     const std::size_t recording = jobs.size();
+    std::size_t map = recording;
     jobs.push_back(plan.recordings[k].job);
+    const bool photometric = std::any_of(runs.begin(), runs.end(), [](const auto* run) { return run->photometric; });
+    if (photometric && plan.recordings[k].photometric_job) {
+      map = jobs.size();
+      jobs.push_back(*plan.recordings[k].photometric_job);
+      jobs.back().needs = {recording};
+    }
     for (const PlannedRun* run : runs) {
       jobs.push_back(run->job);
-      jobs.back().needs = {recording};
+      jobs.back().needs = {run->photometric ? map : recording};
     }
   }
   return jobs;

@@ -26,6 +26,7 @@ struct PlannedRun {
   std::size_t recording = 0;  // index
   paper::Method method;
   bool wanted = true;  // by options.only
+  bool photometric = false;
   PaperJob job;
 };
 
@@ -34,6 +35,7 @@ struct PaperPlan {
   paper::Paper config;
   std::vector<Recording> recordings;  // grouped by sequence, by seed
   std::vector<PlannedRun> runs;
+  std::vector<std::string> left_out;     // what cannot be run, and why
   std::optional<PlannedRun> figure_run;  // a few seconds of the figures' sequence, with its keyframes
 };
 

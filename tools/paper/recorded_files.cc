@@ -24,6 +24,16 @@ std::string FindMap(const std::string& folder, const paper::Sequence& sequence) 
                            ".pcd, .ply or .txt is wanted (z up, metres), or `map` in the configuration");
 }
 
+std::string FindPhotometricMap(const std::string& folder, const paper::Sequence& sequence) {
+  const std::string name =
+      sequence.has_photometric_map() ? sequence.photometric_map() : sequence.scene() + "_photometric.ply";
+  const std::string path = (fs::path(folder) / name).string();
+  if (fs::exists(path)) return path;
+  if (!sequence.has_photometric_map()) return "";
+  throw std::runtime_error(path + ": there is no such map; see `photometric_map` of sequence " + sequence.name() +
+                           " in the configuration");
+}
+
 std::vector<std::string> FindBags(const fs::path& folder, const std::string& name) {
   const auto bag = [&](const std::string& end) { return (folder / (name + end + ".bag")).string(); };
   for (const char* stem : {"1.synced.", "1."}) {
@@ -69,6 +79,7 @@ std::optional<RecordedFiles> FindRecorded(const std::string& folder, const paper
   }
   if (files.folder.empty() && files.bags.empty()) return {};
   files.map = FindMap(folder, sequence);
+  files.photometric_map = FindPhotometricMap(folder, sequence);
   return files;
 }
 

@@ -30,12 +30,25 @@ std::string Identity(const std::string& path) {
   return path + " " + std::to_string(fs::file_size(path)) + " bytes, written " + std::to_string(time) + "\n";
 }
 
+// The photometric map from the posed images that a simulation leaves.
+PaperJob PhotometricJob(const Recording& recording, const std::string& images) {
+  PaperJob job;
+  job.id = "map " + recording.name;
+  job.folder = fs::path(recording.photometric_map).parent_path().string();
+  job.key = "recording " + HexText(HashOf(recording.job.key)) + "\n";
+  job.cost = 10;
+  const std::vector<std::string> words{"evit", "map", "photometric", images, "--out", recording.photometric_map};
+  job.prepare = [words] { return PaperJob::Commands{words}; };
+  return job;
+}
+
 Recording Simulated(const paper::Paper& config, const paper::Sequence& sequence, const RecordingOptions& options,
                     int seed) {
   Recording r;
   r.sequence = &sequence;
   r.seed = seed;
   r.name = sequence.name() + "." + Text(options.seconds) + "s." + std::to_string(seed);
+  r.seconds = options.seconds;
   const std::string folder = options.work + "/recordings/" + r.name, made = folder + "/simulation";
   r.log = folder + "/sequence.lcmlog";
   r.map = made + "/map.pcd";
@@ -44,7 +57,7 @@ Recording Simulated(const paper::Paper& config, const paper::Sequence& sequence,
 
   const paper::Simulated& motion = sequence.simulated();
   std::vector<std::string> words{"evit",   "simulate", "--name", sequence.name(), "--scene", std::to_string(seed),
-                                 "--seed", std::to_string(seed), "--rig", config.rig()};
+                                 "--seed", std::to_string(seed), "--rig", config.rig(), "--rgbd"};
   std::string inputs = "rig " + HexText(HashOfFile(config.rig())) + "\n";
   const std::string recorded =
       motion.has_recorded() && !options.shared_data.empty() ? options.shared_data + "/" + motion.recorded() : "";
@@ -55,7 +68,8 @@ Recording Simulated(const paper::Paper& config, const paper::Sequence& sequence,
     inputs += "motion " + HexText(HashOfFile(recorded)) + "\n";
     r.source = "simulated from VECtor's recorded motion " + fs::path(recorded).stem().string();
   } else {
-    words.insert(words.end(), {"--trajectory", motion.builtin(), "--duration", Text(options.seconds)});
+    words.insert(words.end(), {"--trajectory", motion.builtin(), "--duration", Text(options.seconds),
+                               "--motion-seed", std::to_string(seed)});
     r.source = "simulated, " + motion.builtin();
   }
   r.source += ", " + Text(options.seconds) + " s, " + std::to_string(options.seeds) +
@@ -68,6 +82,8 @@ Recording Simulated(const paper::Paper& config, const paper::Sequence& sequence,
                                         "--rig", r.rig,    "--out",  r.log};
   words.insert(words.end(), {"--threads", std::to_string(options.threads), "--out", made});
   r.job.prepare = [words, import] { return PaperJob::Commands{words, import}; };
+  r.photometric_map = options.work + "/photometric/" + r.name + "/map.ply";
+  r.photometric_job = PhotometricJob(r, made + "/rgbd");
   r.job.finish = [made] {  // the log holds the events now
     for (const auto& entry : fs::directory_iterator(made)) {
       if (entry.path().extension() == ".hdf5") fs::remove(entry.path());
@@ -85,6 +101,7 @@ Recording Recorded(const paper::Paper& config, const paper::Sequence& sequence, 
   const std::string folder = options.work + "/recordings/" + r.name;
   r.log = folder + "/sequence.lcmlog";
   r.map = files.map;
+  r.photometric_map = files.photometric_map;
   r.truth = r.log + ".truth.tum";
   r.rig = config.rig();
 
@@ -101,6 +118,7 @@ Recording Recorded(const paper::Paper& config, const paper::Sequence& sequence, 
   }
   words.insert(words.end(), {"--rig", config.rig()});
   if (sequence.has_begin_s()) {
+    r.seconds = sequence.end_s() - sequence.begin_s();
     words.insert(words.end(), {"--seconds", Text(sequence.begin_s()) + ":" + Text(sequence.end_s())});
     r.source += ", " + Text(sequence.begin_s()) + " to " + Text(sequence.end_s()) + " s";
   }
@@ -111,8 +129,10 @@ Recording Recorded(const paper::Paper& config, const paper::Sequence& sequence, 
   }
   r.job.id = "import " + r.name;
   r.job.folder = folder;
-  r.job.key = Joined(words) + "\n" + inputs + "map " + Identity(files.map) + "program " + RecordingProgramId() + "\n";
-  r.job.cost = 60;
+  inputs += "map " + Identity(files.map);
+  if (!files.photometric_map.empty()) inputs += "photometric map " + Identity(files.photometric_map);
+  r.job.key = Joined(words) + "\n" + inputs + "program " + RecordingProgramId() + "\n";
+  r.job.cost = 1.5 * r.seconds;
   words.insert(words.end(), {"--out", r.log});
   r.job.prepare = [words] { return PaperJob::Commands{words}; };
   return r;

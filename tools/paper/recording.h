@@ -15,8 +15,11 @@ struct Recording {
   int seed = 1;        // room; 1 where recorded
   std::string name;    // e.g. "sofa_fast.10s.1", "sofa_fast.recorded"
   std::string source;  // for people: what it is
+  double seconds = 40;  // its length; recorded whole sequences: about
   std::string log, map, truth, rig;  // files, once `job` is done
   PaperJob job;
+  std::string photometric_map;              // empty: there is none
+  std::optional<PaperJob> photometric_job;  // makes it, from what `job` leaves; nothing where it is there already
 };
 
 struct RecordingOptions {
@@ -38,6 +41,7 @@ struct RecordedFiles {
   std::string folder;             // of VECtor's own files
   std::vector<std::string> bags;  // or these
   std::string map;
+  std::string photometric_map;  // empty: there is none
 };
 /// Nothing where the sequence is not below `folder` (in it, or in a folder of the sequence's name).
 std::optional<RecordedFiles> FindRecorded(const std::string& folder, const paper::Sequence& sequence);

@@ -17,7 +17,8 @@ Trajectory Along(double seconds, const Eigen::Vector3d& offset, double drift = 0
   Trajectory poses;
   for (Utime t = 0; t <= static_cast<Utime>(1e6 * seconds); t += 20'000) {
     const double s = ToSeconds(t);
-    poses.push_back({kBegin + t, {Eigen::Quaterniond::Identity(), Eigen::Vector3d(s, drift * s, 1) + offset}});
+    poses.push_back(
+        {kBegin + t, {Eigen::Quaterniond::Identity(), Eigen::Vector3d(s, drift * s, 1) + offset}});
   }
   return poses;
 }

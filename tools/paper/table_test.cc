@@ -26,10 +26,10 @@ TEST(Table, HasThePapersLayoutWithTheBestOfASequenceInBold) {
   const paper::Paper config = ShippedPaper();
   const TextTable table = PaperLayout(config, results, PaperTable::kNormal, kPaper);
   ASSERT_EQ(table.rows.size(), 3U);  // what was not run has no row
-  EXPECT_THAT(table.rows[0], ElementsAre("robot_normal", "EVT", "300hz", "0.91", "**0.89**", "1.91", "**0.89**",
-                                         "2.91", "**0.89**", "50.00", "0.50"));
-  EXPECT_THAT(table.rows[1], ElementsAre("robot_normal", "EVT", "30hz", "1.02", "0.90", "2.02", "0.90", "-", "-",
-                                         "50.00", "0.50"));
+  EXPECT_THAT(table.rows[0], ElementsAre("robot_normal", "EVT", "300hz", "0.91", "**0.89**", "1.91",
+                                         "**0.89**", "2.91", "**0.89**", "50.00", "0.50"));
+  EXPECT_THAT(table.rows[1], ElementsAre("robot_normal", "EVT", "30hz", "1.02", "0.90", "2.02", "0.90", "-",
+                                         "-", "50.00", "0.50"));
   EXPECT_THAT(table.rows[2], ElementsAre("robot_normal", "EVIT", "(dyn)", "**0.84**", "**0.89**", "**1.84**",
                                          "**0.89**", "**2.84**", "**0.89**", "50.00", "0.50"));
   EXPECT_EQ(table.header.size(), table.rows[0].size());
@@ -41,14 +41,15 @@ TEST(Table, HasThePapersLayoutWithTheBestOfASequenceInBold) {
 TEST(Table, OfSeveralSeedsGivesMedianAndWorstAndCountsAMilestoneOnlyWhereAllReachedIt) {
   PaperResults results;
   results.runs[{"desk_fast", "evit"}] = {MadeUpRun(1, 0.1, 3), MadeUpRun(3, 0.3, 3), MadeUpRun(1.5, 0.2, 3)};
-  results.runs[{"desk_fast", "evt100"}] = {MadeUpRun(0.5, 0.1, 3), MadeUpRun(0.5, 0.1, 1), MadeUpRun(0.5, 0.1, 2)};
+  results.runs[{"desk_fast", "evt100"}] = {MadeUpRun(0.5, 0.1, 3), MadeUpRun(0.5, 0.1, 1),
+                                           MadeUpRun(0.5, 0.1, 2)};
   const TextTable table = PaperLayout(ShippedPaper(), results, PaperTable::kFast, kPaper);
   ASSERT_EQ(table.rows.size(), 2U);
-  EXPECT_THAT(table.rows[0], ElementsAre("desk_fast", "EVT", "100hz", "**0.50** (0.50)", "**0.10** (0.10)", "- (2/3)",
-                                         "- (2/3)", "- (1/3)", "- (1/3)", "50.00", "0.50"));
-  EXPECT_THAT(table.rows[1], ElementsAre("desk_fast", "EVIT", "(dyn)", "1.50 (3.00)", "0.20 (0.30)",
-                                         "**2.50** (4.00)", "**0.20** (0.30)", "**3.50** (5.00)",
-                                         "**0.20** (0.30)", "50.00", "0.50"));
+  EXPECT_THAT(table.rows[0], ElementsAre("desk_fast", "EVT", "100hz", "**0.50** (0.50)", "**0.10** (0.10)",
+                                         "- (2/3)", "- (2/3)", "- (1/3)", "- (1/3)", "50.00", "0.50"));
+  EXPECT_THAT(table.rows[1],
+              ElementsAre("desk_fast", "EVIT", "(dyn)", "1.50 (3.00)", "0.20 (0.30)", "**2.50** (4.00)",
+                          "**0.20** (0.30)", "**3.50** (5.00)", "**0.20** (0.30)", "50.00", "0.50"));
 }
 
 TEST(Table, OfMotionModelsHasASequenceInARowAndNoneBoldButTheBestOfIt) {
@@ -58,8 +59,8 @@ TEST(Table, OfMotionModelsHasASequenceInARowAndNoneBoldButTheBestOfIt) {
   results.runs[{"sofa_fast", "evit"}] = {MadeUpRun(2, 2, 3)};
   const TextTable table = PaperLayout(ShippedPaper(), results, PaperTable::kMotionModels, kPaper);
   ASSERT_EQ(table.rows.size(), 1U);
-  EXPECT_THAT(table.rows[0], ElementsAre("sofa_fast", "-", "-", "50.00", "0.50", "**3.00**", "3.00", "50.00", "0.50",
-                                         "4.00", "**2.00**", "50.00", "0.50"));
+  EXPECT_THAT(table.rows[0], ElementsAre("sofa_fast", "-", "-", "50.00", "0.50", "**3.00**", "3.00", "50.00",
+                                         "0.50", "4.00", "**2.00**", "50.00", "0.50"));
   EXPECT_EQ(table.header.size(), table.rows[0].size());
 }
 

@@ -37,7 +37,8 @@ class TestFolder {
 /// The configuration shipped, loaded.
 inline paper::Paper ShippedPaper() { return LoadPaper(EVIT_SOURCE_DIR "/config/paper.textproto"); }
 
-/// A run with the same error under every alignment: `reached` milestones, the k-th with k cm more than the first.
+/// A run with the same error under every alignment: `reached` milestones, the k-th with k cm more than the
+/// first.
 inline RunScore MadeUpRun(double position_cm, double orientation_deg, int reached) {
   RunScore run;
   for (auto& row : run.ate) {
