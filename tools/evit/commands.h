@@ -12,6 +12,7 @@ void AddImportCommand(CLI::App* app);
 void AddMapCommand(CLI::App* app);
 void AddEvalCommand(CLI::App* app);
 void AddRunCommand(CLI::App* app);
+void AddPaperCommand(CLI::App* app);
 void AddUpCommand(CLI::App* app);
 /// ps, start, stop, restart, logs.
 void AddProcmanCommands(CLI::App* app);

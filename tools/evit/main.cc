@@ -31,6 +31,7 @@ int Main(int argc, char** argv) {
   evit::AddSimulateCommand(&app);
   evit::AddRunCommand(&app);
   evit::AddEvalCommand(&app);
+  evit::AddPaperCommand(&app);
   evit::AddUpCommand(&app);
   evit::AddProcmanCommands(&app);
   try {

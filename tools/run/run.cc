@@ -14,6 +14,7 @@
 #include "common/evaluation/trajectory_error.h"
 #include "common/service/runner.h"
 #include "tools/progress.h"
+#include "tools/run/bus_log.h"
 #include "tools/run/latency.h"
 #include "tools/run/local_network.h"
 #include "tools/run/memory_log.h"
@@ -197,6 +198,9 @@ int Run(const RunJob& job) {
   const auto bus = OpenLcmBus(url);
   const Channels channels(job.prefix);
   Recorder recorder(bus.get(), channels);
+  std::unique_ptr<BusLog> bus_log;
+  if (!job.record.empty())
+    bus_log = std::make_unique<BusLog>(bus.get(), job.record, std::vector<std::string>{channels.keyframe, channels.window_state});
   std::unique_ptr<LatencyProbe> latency;
   if (!job.lossless && job.speed == 1 && job.loops == 1)
     latency = std::make_unique<LatencyProbe>(bus.get(), channels);
@@ -218,6 +222,7 @@ int Run(const RunJob& job) {
   while (bus->Poll(50) > 0) {  // each service's last STATUS
   }
   if (job.loops > 1) memory.Write(job.out);
+  if (bus_log != nullptr) bus_log->Close();
   return WriteResults(job, inputs, recorder, pipeline, outcome);
 }
 

@@ -21,6 +21,7 @@ struct RunJob {
   std::optional<std::pair<double, double>> seconds;  // part of the log
   std::string lcm_url, prefix;
   std::string command;  // for the report
+  std::string record;   // log to write KEYFRAME and WINDOW_STATE to; empty: none
 };
 
 /// Starts the services, waits for the end and writes trajectory.tum, smoothed.tum, covariance.csv,
