@@ -44,7 +44,8 @@ EventArray Events(const Rig& rig, const Scene& scene, const Motion& motion, cons
   SimulateEvents(
       renderer, motion.spline, rig, schedule, disturbances, sensor, 1, 2,
       [&](const EventArray& part) {
-        for (std::size_t i = 0; i < part.size(); ++i) all.push_back(part.t[i], part.x[i], part.y[i], part.p[i]);
+        for (std::size_t i = 0; i < part.size(); ++i)
+          all.push_back(part.t[i], part.x[i], part.y[i], part.p[i]);
       },
       nullptr);
   return all;
@@ -66,7 +67,8 @@ TEST(Cover, OpensAndCloses) {
   EXPECT_EQ(Cover{}.Factor(0), 1);
 }
 
-// In the dark the camera sees nothing, however it moves; before and after it does, and the change itself shows.
+// In the dark the camera sees nothing, however it moves; before and after it does, and the change itself
+// shows.
 TEST(Cover, LeavesOnlyNoise) {
   const Rig rig = SmallRig();
   const Scene scene = MakeRoom(1);
@@ -100,7 +102,8 @@ TEST(MovingBox, MovesBeforeTheCameraAndNeverIntoIt) {
         const SE3 T_map_camera = motion.spline.Pose(t) * rig.T_body_camera;
         const Eigen::Vector3d p = box.Pose(t).p;
         speed += (box.Pose(t + 20'000).p - p).norm() / 0.02;
-        EXPECT_GT((box.Pose(t).Inverse() * T_map_camera.p).cwiseAbs().maxCoeff(), 0.31) << name << ' ' << seed;
+        EXPECT_GT((box.Pose(t).Inverse() * T_map_camera.p).cwiseAbs().maxCoeff(), 0.31)
+            << name << ' ' << seed;
         Eigen::Vector2d pixel;
         if (rig.camera.Project(T_map_camera.Inverse() * p, &pixel) && rig.camera.Contains(pixel)) ++seen;
       }

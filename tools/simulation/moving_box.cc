@@ -8,11 +8,11 @@
 namespace evit {
 namespace {
 
-constexpr double kSweep = 0.55;    // m to either side
-constexpr double kBob = 0.06;      // m up and down
-constexpr double kTurn = 0.35;     // rad to either side
-constexpr double kNearest = 1.0;   // m from the camera's mean place, at least
-constexpr double kClearance = 0.7; // m between the foremost place of the camera and the box's middle
+constexpr double kSweep = 0.55;     // m to either side
+constexpr double kBob = 0.06;       // m up and down
+constexpr double kTurn = 0.35;      // rad to either side
+constexpr double kNearest = 1.0;    // m from the camera's mean place, at least
+constexpr double kClearance = 0.7;  // m between the foremost place of the camera and the box's middle
 
 }  // namespace
 

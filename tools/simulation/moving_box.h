@@ -9,8 +9,8 @@
 
 namespace evit {
 
-/// A textured box of 0.4 to 0.6 m that somebody moves to and fro before the camera, at 0.3 to 0.5 m/s: across the
-/// middle of what the camera sees on average, beyond the nearest place that the camera comes to. Seeded.
+/// A textured box of 0.4 to 0.6 m that somebody moves to and fro before the camera, at 0.3 to 0.5 m/s: across
+/// the middle of what the camera sees on average, beyond the nearest place that the camera comes to. Seeded.
 class MovingBox {
  public:
   MovingBox(std::uint64_t seed, const PoseSpline& motion, const Rig& rig, Utime begin, Utime end);

@@ -23,8 +23,8 @@ class SceneBuilder {
   bool plain() const { return plain_; }
 
   /// `base`: grey of the surface's material.
-  void Rectangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& edge_s, const Eigen::Vector3d& edge_t, Paint paint,
-                 double base, double texel = 0.003) {
+  void Rectangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& edge_s, const Eigen::Vector3d& edge_t,
+                 Paint paint, double base, double texel = 0.003) {
     Surface s;
     s.origin = origin;
     s.edge_s = edge_s;
@@ -36,7 +36,8 @@ class SceneBuilder {
   }
 
   /// A box standing on z = base.z, turned by `yaw`; its four sides and top (and bottom, where it hangs).
-  void Box(const Eigen::Vector3d& centre_below, const Eigen::Vector3d& size, double yaw, Paint paint, double base) {
+  void Box(const Eigen::Vector3d& centre_below, const Eigen::Vector3d& size, double yaw, Paint paint,
+           double base) {
     const Eigen::Vector3d x = Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0) * size.x();
     const Eigen::Vector3d y = Eigen::Vector3d(-std::sin(yaw), std::cos(yaw), 0) * size.y();
     const Eigen::Vector3d z = Eigen::Vector3d::UnitZ() * size.z(), o = centre_below - 0.5 * x - 0.5 * y;
