@@ -41,7 +41,10 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
   const WindowNode& newest = window_.nodes().back();
   state_ = newest.state;
   out->information = window_.NewestInformation();
-  out->covariance = PoseCovariance(out->information);
+  if (coasting.empty()) {
+    common_ = CommonCovariance(newest.alignment, config_.window().correlated_share(), config_.window().map_sigma_m());
+  }
+  out->covariance = PoseCovariance(out->information) + common_;
 
   const std::string trouble = Trouble(keyframe, summary.usable, coasting, *out);
   if (!trouble.empty()) {
