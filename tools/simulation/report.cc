@@ -76,7 +76,12 @@ void WriteReport(const std::string& path, const SimulationSettings& settings, co
       .Number("seed", static_cast<double>(settings.seed));
   json.Open("trajectory").Text("source", settings.trajectory.source).Text("note", s.motion.note);
   json.Number("begin_us", static_cast<double>(s.motion.begin)).Number("duration_s", s.duration_s);
-  json.Number("knot_ms", settings.trajectory.knot_ms);
+  json.Number("knot_ms", settings.trajectory.knot_ms).Number("play_speed", settings.trajectory.play_speed);
+  json.Number("variant", static_cast<double>(settings.trajectory.variant));
+  const Tremor& tremor = settings.trajectory.tremor;
+  json.Number("tremor_hz", tremor.hz).Number("tremor_mm", tremor.mm).Number("tremor_deg", tremor.deg);
+  json.Number("speed_mean_m_s", s.motion_speed.mean).Number("speed_p99_m_s", s.motion_speed.p99);
+  json.Number("rate_mean_rad_s", s.motion_speed.turn_mean).Number("rate_p99_rad_s", s.motion_speed.turn_p99);
   json.Number("fit_rms_m", s.motion.fit_rms_m).Number("fit_rms_deg", s.motion.fit_rms_deg).Close();
   json.Open("sensor").Number("threshold", settings.sensor.threshold);
   json.Number("threshold_spread", settings.sensor.threshold_spread);

@@ -125,7 +125,8 @@ void AddPosters(RoomBuilder* b, const Vector3d& origin, const Vector3d& along, d
   }
 }
 
-void AddTable(RoomBuilder* b, const Vector3d& at, double yaw) {
+// Returns the middle of its top.
+Vector3d AddTable(RoomBuilder* b, const Vector3d& at, double yaw) {
   const double width = b->Grey(0.5, 0.8), length = b->Grey(0.9, 1.4), height = b->Grey(0.5, 0.78);
   const double grey = b->Grey(60, 220);
   b->Box(at + Vector3d(0, 0, height - 0.04), {width, length, 0.04}, yaw, Paint::kWood, grey);
@@ -153,6 +154,7 @@ void AddTable(RoomBuilder* b, const Vector3d& at, double yaw) {
              b->AnyPaint(0.6), b->Grey(40, 230));
     }
   }
+  return at + Vector3d(0, 0, height);
 }
 
 // Shelf open to -x (before yaw): back, sides, boards, books and boxes on them.
@@ -220,7 +222,7 @@ Scene MakeRoom(std::uint64_t seed) {
     if (order[i] == 1) AddShelf(&b, {b.Grey(1.5, 2.0), y, 0}, yaw);
     if (order[i] == 2) AddTable(&b, {b.Grey(1.2, 1.5), y, 0}, yaw);
   }
-  AddTable(&b, {b.Grey(-0.6, 0.2), 1.85, 0}, 1.57 + b.Grey(-0.1, 0.1));
+  b.scene().desk = AddTable(&b, {b.Grey(-0.6, 0.2), 1.85, 0}, 1.57 + b.Grey(-0.1, 0.1));
   AddShelf(&b, {b.Grey(-0.6, 0.2), -2.1, 0}, -1.57 + b.Grey(-0.1, 0.1));
   AddSofa(&b, {-2.1, b.Grey(-0.4, 0.4), 0}, 3.14 + b.Grey(-0.1, 0.1));
   const int stack = b.random().Integer(2, 4);

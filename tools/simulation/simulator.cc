@@ -6,6 +6,7 @@
 
 #include "common/config/rig_file.h"
 #include "tools/simulation/preview.h"
+#include "tools/simulation/rgbd_views.h"
 #include "tools/simulation/room.h"
 #include "tools/simulation/sequence_files.h"
 #include "tools/vector/event_file.h"
@@ -48,10 +49,13 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
     if (progress) progress(share);
   };
   SimulationSummary summary;
-  summary.motion = LoadMotion(settings.trajectory, rig);
+  TrajectorySettings trajectory = settings.trajectory;
+  trajectory.tremor_seed = settings.seed;
+  summary.motion = LoadMotion(trajectory, rig);
   const Scene scene = MakeRoom(settings.scene_seed);
   Motion& motion = summary.motion;
   PlaceInRoom(rig, scene, &motion);
+  summary.motion_speed = MeasureMotionSpeed(motion, rig);
   summary.name = settings.name.empty() ? motion.name : settings.name;
   if (summary.name.find('/') != std::string::npos)
     throw std::runtime_error("sequence name must not contain '/'");
@@ -81,6 +85,11 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
   if (map.points.empty()) throw std::runtime_error("the map would be empty: nothing with edges is in view");
   summary.n_map_points = map.points.size();
   WriteBinaryPcd(folder.File("map.pcd"), map);
+  if (settings.rgbd) {
+    WriteRgbdViews(folder.File("rgbd"), scene, rig, motion.spline,
+                   ChooseMapViews(motion.spline, motion.begin, motion.end, settings.map), settings.map,
+                   settings.seed, settings.threads);
+  }
   report(0.05);
 
   Lamp lamp;

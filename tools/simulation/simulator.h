@@ -24,6 +24,7 @@ struct SimulationSettings {
   ImuSettings imu;
   MapSettings map;
   double lamp_off_s = 0, lamp_on_s = 0, lamp_share = 0.35;  // of the sequence; equal: never off
+  bool rgbd = false;                                        // also the map's views as images with depth
   int previews = 0;
   int threads = 2;
 };
@@ -31,6 +32,7 @@ struct SimulationSettings {
 struct SimulationSummary {
   std::string name;
   Motion motion;
+  MotionSpeed motion_speed;
   double duration_s = 0;
   std::size_t n_renders = 0, n_imu = 0, n_map_points = 0;
   int n_map_views = 0;
@@ -42,8 +44,9 @@ struct SimulationSummary {
 };
 
 /// Simulates a whole sequence into settings.out, in VECtor's file layout: <name>1.synced.{left_event.hdf5,
-/// imu.txt,gt.txt}, map.pcd, truth.tum (T_map_body), rig.textproto, simulation.json, preview_*.png. Files
-/// appear there only when all are whole. `progress`: 0..1. Throws std::runtime_error on anything wrong.
+/// imu.txt,gt.txt}, map.pcd, rgbd/ (see WriteRgbdViews), truth.tum (T_map_body), rig.textproto,
+/// simulation.json, preview_*.png. Files appear there only when all are whole. `progress`: 0..1. Throws
+/// std::runtime_error on anything wrong.
 SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, const std::string& rig_name,
                            const std::function<void(double)>& progress);
 
