@@ -23,7 +23,8 @@ float SpacingOf(const std::vector<Eigen::Vector3f>& points) {
     spacings.clear();
     for (std::size_t k = 0; k < points.size(); k += stride) {
       int around = 0;
-      for (const Eigen::Vector3f& p : points) around += (p - points[k]).squaredNorm() < radius * radius ? 1 : 0;
+      for (const Eigen::Vector3f& p : points)
+        around += (p - points[k]).squaredNorm() < radius * radius ? 1 : 0;
       spacings.push_back(radius * std::sqrt(3.1416F / static_cast<float>(around)));
     }
     const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);

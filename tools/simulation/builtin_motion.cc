@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kRadians = 0.017453292519943295;
 
-// Speeds and rates of VECtor's recordings where known: robot_normal 0.12 m/s and 0.3 rad/s; sofa_fast 0.84 m/s,
-// at the 99th percentile 1.7 m/s and 3.4 rad/s.
+// Speeds and rates of VECtor's recordings where known: robot_normal 0.12 m/s and 0.3 rad/s; sofa_fast 0.84
+// m/s, at the 99th percentile 1.7 m/s and 3.4 rad/s.
 constexpr std::array<BuiltinMotion, 9> kMotions{{
     {"handheld", 1, 0.15, 0.4, 0.7, 0.7, {1, 1, 0.6}, {0.7, 1, 0.5}, 0, false},
     {"fast", 2, 0.8, 1.5, 1.6, 1.6, {1, 1, 0.6}, {0.7, 1, 0.5}, 0, false},
@@ -26,7 +26,7 @@ constexpr std::array<BuiltinMotion, 9> kMotions{{
     {"robot_fast", 9, 0.75, 1.4, 1.6, 1.6, {1, 0.9, 0.5}, {0.6, 1, 0.4}, 5, false},
 }};
 
-constexpr int kStep = 5000;  // us between poses
+constexpr int kStep = 5000;       // us between poses
 constexpr double kMarginS = 0.3;  // of poses at both ends, beyond what is asked for
 
 // Sums of sines with random phases.
@@ -104,7 +104,8 @@ const BuiltinMotion* FindBuiltinMotion(const std::string& name) {
 
 std::string BuiltinMotionNames() {
   std::string names;
-  for (const BuiltinMotion& b : kMotions) names += (names.empty() ? "builtin:" : ", builtin:") + std::string(b.name);
+  for (const BuiltinMotion& b : kMotions)
+    names += (names.empty() ? "builtin:" : ", builtin:") + std::string(b.name);
   return names;
 }
 

@@ -8,8 +8,8 @@
 
 namespace evit {
 
-/// A motion made by formula: sums of sines with random phases, in about 0.15 to 0.75 Hz times `tempo`, scaled to
-/// the wanted mean speed and turn rate of the camera.
+/// A motion made by formula: sums of sines with random phases, in about 0.15 to 0.75 Hz times `tempo`, scaled
+/// to the wanted mean speed and turn rate of the camera.
 struct BuiltinMotion {
   const char* name;
   std::uint64_t seed;     // of its first variant
@@ -23,15 +23,17 @@ struct BuiltinMotion {
   bool at_desk;           // stands before the desk and looks down at it
 };
 
-/// The motion of this name; nullptr where there is none. handheld and fast; rotation (nearly pure); and desk, sofa
-/// and robot, normal and fast: stand-ins for VECtor's sequences of these names, after their mean speeds and rates.
+/// The motion of this name; nullptr where there is none. handheld and fast; rotation (nearly pure); and desk,
+/// sofa and robot, normal and fast: stand-ins for VECtor's sequences of these names, after their mean speeds
+/// and rates.
 const BuiltinMotion* FindBuiltinMotion(const std::string& name);
 
 /// "builtin:handheld, builtin:fast, ...", for messages.
 std::string BuiltinMotionNames();
 
-/// T_map_body at 200 Hz for `duration` seconds, the camera's path about the origin. `variant` 1 is the motion of
-/// that name; others have other phases and frequencies, and are drawn again until their path fits into a room.
+/// T_map_body at 200 Hz for `duration` seconds, the camera's path about the origin. `variant` 1 is the motion
+/// of that name; others have other phases and frequencies, and are drawn again until their path fits into a
+/// room.
 Trajectory MakeBuiltinMotion(const BuiltinMotion& builtin, double duration, std::uint64_t variant,
                              const Rig& rig);
 

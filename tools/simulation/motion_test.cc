@@ -44,11 +44,17 @@ double Amplitude(const PoseSpline& shaken, const PoseSpline& calm, double hz, in
   return 2 * std::abs(sum) / n;
 }
 
-// The default variant is the motion as it always was: a few poses of it, as printed before there were variants.
+// The default variant is the motion as it always was: a few poses of it, as printed before there were
+// variants.
 TEST(BuiltinMotion, FirstVariantStaysWhatItWas) {
   const Rig rig = TestRig();
-  for (const auto& [name, row] : std::map<std::string, const char*>{
-           {"handheld", "1642661139.500000 0.138466509 0.108745867 -0.0976602324 0.498842212 -0.484582872 0.477723932 0.536764131"}, {"fast", "1642661139.500000 -0.020962343 0.112659232 -0.126903589 0.337582882 -0.508112802 0.496609266 0.61744507"}}) {
+  for (const auto& [name, row] :
+       std::map<std::string, const char*>{{"handheld",
+                                           "1642661139.500000 0.138466509 0.108745867 -0.0976602324 "
+                                           "0.498842212 -0.484582872 0.477723932 0.536764131"},
+                                          {"fast",
+                                           "1642661139.500000 -0.020962343 0.112659232 -0.126903589 "
+                                           "0.337582882 -0.508112802 0.496609266 0.61744507"}}) {
     const Trajectory poses = MakeBuiltinMotion(*FindBuiltinMotion(name), 2, 1, rig);
     EXPECT_EQ(TumLine(poses[300]), row) << name;
   }
@@ -117,7 +123,8 @@ TEST(BuiltinMotion, VariantsDiffer) {
   EXPECT_EQ(seen.size(), 10U);
 }
 
-// At three times the speed the same poses come in a third of the time, and turn rates are three times as high.
+// At three times the speed the same poses come in a third of the time, and turn rates are three times as
+// high.
 TEST(PlaySpeed, IsTheSameWayInLessTime) {
   const Motion slow = Builtin("handheld", 6);
   Trajectory poses;

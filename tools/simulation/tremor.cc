@@ -51,7 +51,8 @@ PoseSpline AddTremor(const PoseSpline& motion, const Tremor& tremor, double knot
                      std::uint64_t seed) {
   Random random(seed, 0x73E3);
   const Shake translation(&random, tremor.hz), rotation(&random, tremor.hz);
-  // Ten knots for each period of the fastest sine, and four poses for each knot: nothing of it is smoothed away.
+  // Ten knots for each period of the fastest sine, and four poses for each knot: nothing of it is smoothed
+  // away.
   constexpr double kKnotsPerPeriod = 10, kPosesPerKnot = 4, kFastest = 1.15;
   const double knot = std::min(knot_spacing, 1 / (kKnotsPerPeriod * kFastest * tremor.hz));
   const auto step = std::max<Utime>(100, static_cast<Utime>(1e6 * knot / kPosesPerKnot));
