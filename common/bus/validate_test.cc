@@ -72,7 +72,7 @@ TEST(Validate, Keyframe) {
 
 TEST(Validate, PhotometricMap) {
   ExpectRefused<map_view_t>("size", [](auto* m) { m->width += 1; });
-  ExpectRefused<map_view_t>("height", [](auto* m) { m->width = -m->width, m->height = -m->height; });
+  ExpectRefused<map_view_t>("width", [](auto* m) { m->width = -m->width, m->height = -m->height; });
   ExpectRefused<map_view_t>("min_depth", [](auto* m) { m->min_depth = 0; });
   ExpectRefused<map_view_t>("query_seq", [](auto* m) { m->query_seq = -1; });
   ExpectRefused<view_query_t>("distortion", [](auto* m) { m->camera.distortion[3] = 0.1; });

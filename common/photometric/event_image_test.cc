@@ -57,7 +57,7 @@ TEST(GradientPoints, LieOnTheWallsWithTheirGradient) {
   const SE3 T_camera = room.T_map_room * SE3(ExpSO3({0.6, 0.1, -0.2}), {0.2, 0.1, 0}) * test::BodyCamera();
   const MapView view = room.See(ViewCamera(test::EventCamera(640, 480), 0.1), T_camera);
   for (const int level : {0, 1}) {
-    const auto points = FindGradientPoints(view, level, 0.5, 0.05, 2000);
+    const auto points = FindGradientPoints(view, level, 0, 0.05, 2000);
     ASSERT_GT(points.size(), 900u);
     EXPECT_LE(points.size(), 2000u);
     int good = 0;
@@ -67,16 +67,18 @@ TEST(GradientPoints, LieOnTheWallsWithTheirGradient) {
       // At right angles to the line of sight; and what a step along the gradient changes is what it says.
       const Eigen::Vector3d sight = (g.point - T_camera.p).normalized();
       EXPECT_LT(std::abs(sight.dot(g.gradient)), 1e-9 * (1 + g.gradient.norm()));
-      const Eigen::Vector3d step = 0.004 * g.gradient.normalized();
+      const double depth = (T_camera.Inverse() * g.point).z();
+      const double pixel = depth * (1 << level) / view.query.camera.fx;  // m
+      const Eigen::Vector3d step = pixel * g.gradient.normalized();
       const auto light = [&](const Eigen::Vector3d& q) {  // at the wall behind q
         const SE3 T = room.T_map_room.Inverse();
         const Eigen::Vector3d eye = T * T_camera.p, ray = T * q - eye;
         return std::log(room.Intensity(eye + test::Room::Cast(eye, ray) * ray) + test::Room::kDark);
       };
-      const double change = (light(g.point + step) - light(g.point - step)) / 0.008;
+      const double change = (light(g.point + step) - light(g.point - step)) / (2 * pixel);
       good += on_wall && std::abs(change - g.gradient.norm()) < 0.3 * g.gradient.norm() ? 1 : 0;
     }
-    EXPECT_GT(good, 0.9 * static_cast<double>(points.size()));
+    EXPECT_GT(good, 0.8 * static_cast<double>(points.size()));
   }
 }
 

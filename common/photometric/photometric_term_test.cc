@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include <Eigen/Eigenvalues>
 
 #include "common/photometric/photometric_factor.h"
 #include "common/photometric/test_room.h"
@@ -67,13 +67,13 @@ TEST(PhotometricTerm, GradientIsThatOfTheCost) {
         const PhotometricTerm term = EvaluatePhotometric(frame.scene, pose, twist, true);
         EXPECT_EQ(term.cost, EvaluatePhotometric(frame.scene, pose, twist, false).cost);
         for (int k = 0; k < 12; ++k) {
-          const double h = 1e-6;
+          const double h = 1e-5;  // images are floats
           const auto cost = [&](double s) {
             const auto d = Step(k, s * h);
             return EvaluatePhotometric(frame.scene, pose.Plus(d.head<6>()), twist + d.tail<6>(), false).cost;
           };
           const double numeric = (cost(1) - cost(-1)) / (2 * h);
-          EXPECT_NEAR(term.gradient[k], numeric, 1e-3 * std::abs(numeric) + 0.02) << k << " level " << level;
+          EXPECT_NEAR(term.gradient[k], numeric, 2e-3 * std::abs(numeric) + 0.03) << k << " level " << level;
         }
         EXPECT_GE(term.hessian.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(),
                   -1e-9 * term.hessian.norm());
@@ -161,7 +161,8 @@ TEST(MotionPriorFactor, JacobiansAreThoseOfTheResidual) {
         (residual(at.Plus(d.head<6>()), off + d.tail<6>(), nullptr) -
          residual(at.Plus(-d.head<6>()), off - d.tail<6>(), nullptr)) /
         2e-6;
-    EXPECT_LT((numeric - (k < 6 ? by_pose.col(k) : by_twist.col(k - 6))).norm(), 1e-6) << k;
+    const Eigen::Matrix<double, 12, 1> analytic = k < 6 ? by_pose.col(k).eval() : by_twist.col(k - 6).eval();
+    EXPECT_LT((numeric - analytic).norm(), 1e-6) << k;
   }
   EXPECT_LT(residual(mean, twist, nullptr).norm(), 1e-12);
 }

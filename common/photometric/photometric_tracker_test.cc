@@ -21,7 +21,7 @@ config::Tracker Config() {
   p->set_contrast_threshold(kThreshold), p->set_view_margin(0.08), p->set_blur_sigma_px(1), p->set_levels(2);
   p->set_max_points(3000), p->set_min_gradient(0.03), p->set_robust_scale(1.5), p->set_max_iterations(10);
   p->set_sigma_position_m(0.05), p->set_sigma_rotation_rad(0.05), p->set_sigma_velocity(0.5);
-  p->set_sigma_rate(1), p->set_min_correlation(0.15), p->set_max_bad_s(0.2);
+  p->set_sigma_rate(1), p->set_min_correlation(0.6), p->set_max_bad_s(0.2);
   return c;
 }
 

@@ -18,7 +18,8 @@ struct Room {
   double phase = 0;  // another one: other patterns on the walls
   static constexpr double kDark = 0.012;
 
-  double Intensity(const Eigen::Vector3d& p) const {  // 0..1, p in the room
+  double Intensity(const Eigen::Vector3d& place) const {  // 0..1, place in the room
+    const Eigen::Vector3d p = (1 + 0.4 * phase) * place;
     const double wave = std::sin(7.1 * p.y() + 2.3 * p.z() + 3 * p.x() + phase) +
                         std::sin(-3.7 * p.y() + 8.9 * p.z() + 5 * p.x() + 1 + 2 * phase) +
                         std::sin(13.3 * p.y() - 9.1 * p.z() - 8 * p.x() + 2 + 3 * phase);
@@ -27,11 +28,16 @@ struct Room {
   /// Where a ray from `origin` meets a wall, as a multiple of `direction` (both in the room); 0: nowhere.
   static double Cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
     double nearest = 0;
-    if (direction.x() > 0) nearest = (3 - origin.x()) / direction.x();
+    if (direction.x() > 0) {
+      const double s = (3 - origin.x()) / direction.x();
+      const Eigen::Vector3d p = origin + s * direction;
+      if (s > 0 && std::abs(p.y()) < 4 && std::abs(p.z()) < 3) nearest = s;
+    }
     if (direction.y() < 0) {
       const double s = (-1.2 - origin.y()) / direction.y();
-      const double x = origin.x() + s * direction.x();
-      if (s > 0 && x > 1 && x < 3 && (nearest <= 0 || s < nearest)) nearest = s;
+      const Eigen::Vector3d p = origin + s * direction;
+      if (s > 0 && p.x() > 1 && p.x() < 3 && std::abs(p.z()) < 3 && (nearest <= 0 || s < nearest))
+        nearest = s;
     }
     return nearest > 0 && nearest < 20 ? nearest : 0;
   }
