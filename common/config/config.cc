@@ -87,6 +87,33 @@ Rig LoadRig(const std::string& path) {
   return rig;
 }
 
+namespace {
+
+void CheckPhotometric(const config::Photometric& p, const std::string& path) {
+  const auto positive = [&](double v, const char* name) {
+    Require(v > 0 && std::isfinite(v), path, std::string("photometric.") + name + ": must be positive");
+  };
+  positive(p.contrast_threshold(), "contrast_threshold");
+  positive(p.min_gradient(), "min_gradient");
+  positive(p.robust_scale(), "robust_scale");
+  positive(p.max_iterations(), "max_iterations");
+  positive(p.sigma_position_m(), "sigma_position_m");
+  positive(p.sigma_rotation_rad(), "sigma_rotation_rad");
+  positive(p.sigma_velocity(), "sigma_velocity");
+  positive(p.sigma_rate(), "sigma_rate");
+  positive(p.max_bad_s(), "max_bad_s");
+  Require(p.view_margin() >= 0 && p.view_margin() <= 1, path, "photometric.view_margin: 0 to 1 is wanted");
+  Require(p.blur_sigma_px() >= 0 && p.blur_sigma_px() <= 10, path,
+          "photometric.blur_sigma_px: 0 to 10 pixels are wanted");
+  Require(p.levels() >= 1 && p.levels() <= 4, path, "photometric.levels: 1 to 4 are wanted");
+  Require(p.max_points() >= 100 && p.max_points() <= 100'000, path,
+          "photometric.max_points: 100 to 100000 are wanted");
+  Require(p.min_correlation() >= 0 && p.min_correlation() < 1, path,
+          "photometric.min_correlation: 0 to 1 is wanted");
+}
+
+}  // namespace
+
 config::Tracker LoadTracker(const std::string& path) {
   auto c = Parse<config::Tracker>(path);
   const auto positive = [&](double v, const char* name) {
@@ -138,6 +165,9 @@ config::Tracker LoadTracker(const std::string& path) {
   positive(c.failure().max_position_sigma_m(), "failure.max_position_sigma_m");
   positive(c.failure().max_speed(), "failure.max_speed");
   positive(c.failure().max_imu_gap_ms(), "failure.max_imu_gap_ms");
+  Require(c.method() != config::Tracker::EVPT || c.has_photometric(), path,
+          "photometric: method EVPT wants it, see config/evpt.textproto");
+  if (c.has_photometric()) CheckPhotometric(c.photometric(), path);
   return c;
 }
 

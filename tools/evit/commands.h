@@ -10,6 +10,8 @@ namespace evit {
 
 void AddImportCommand(CLI::App* app);
 void AddMapCommand(CLI::App* app);
+/// photometric, a subcommand of map.
+void AddMapPhotometric(CLI::App* map);
 void AddEvalCommand(CLI::App* app);
 void AddRunCommand(CLI::App* app);
 void AddPaperCommand(CLI::App* app);

@@ -20,7 +20,9 @@ void AddRunCommand(CLI::App* app) {
   CLI::App* run =
       app->add_subcommand("run", "Track a recorded log: starts the four services, scores the result");
   run->add_option("--log", o->job.log, "LCM log with EVENTS and IMU (evit import)")->required();
-  run->add_option("--map", o->job.map, "Semi-dense map: PCD, PLY or text, metres, z up")->required();
+  run->add_option("--map", o->job.map, "Semi-dense map: PCD, PLY or text, metres, z up");
+  run->add_option("--photometric-map", o->job.photometric_map,
+                  "For method EVPT: PLY with intensities (evit map photometric); --map may be left out then");
   run->add_option("--rig", o->job.rig, "Calibration, e.g. config/vector/rig.textproto")->required();
   run->add_option("--config", o->job.config, "Tracker settings (default: config/tracker.textproto)");
   auto* pose =

@@ -52,7 +52,10 @@ std::vector<ProcmanCommand> Commands(const RunJob& job, const std::string& url, 
     std::filesystem::remove(path);  // of an earlier run
     return path;
   };
-  std::vector<std::string> map_server{"map_server", "--map", job.map};
+  std::vector<std::string> map_server{"map_server"};
+  if (!job.map.empty()) map_server.insert(map_server.end(), {"--map", job.map});
+  if (!job.photometric_map.empty())
+    map_server.insert(map_server.end(), {"--photometric-map", job.photometric_map});
   std::vector<std::string> optimizer{"window_optimizer", "--rig",          job.rig,        "--config",
                                      job.config,         "--initial-pose", PoseText(start)};
   std::vector<std::string> builder{"frame_builder", "--rig", job.rig, "--config", job.config};

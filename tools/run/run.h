@@ -11,6 +11,7 @@ namespace evit {
 /// One run of the four services on a recorded log.
 struct RunJob {
   std::string log, map, rig, config;  // files
+  std::string photometric_map;        // the same, for EVPT; `map` may be empty then
   std::string out;                    // folder for the results
   std::string truth;                  // TUM file to score against; empty: none
   std::optional<SE3> initial_pose;    // of the body in the map

@@ -32,7 +32,7 @@ void Describe(const RunJob& job, const RunInputs& inputs, report::Report* report
   report->set_command(job.command);
   report->set_host(host);
   report->set_rig(job.rig);
-  report->set_map(job.map);
+  report->set_map(job.map.empty() ? job.photometric_map : job.map);
   report->set_log(job.log);
   report->set_config(ReadText(job.config));
   report->set_lossless(job.lossless);
