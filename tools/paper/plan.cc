@@ -113,6 +113,9 @@ PaperPlan MakePlan(const PaperOptions& options) {
                              plan.config.sequence(0).name() + "1.synced.left_event.hdf5 with .imu.txt and .gt.txt");
   }
   PlanRuns(options, recording.work, &plan);
+  if (JobsOf(plan).empty()) {
+    throw std::runtime_error("--only: its words have no run in common; tables, sequences and methods narrow each other");
+  }
   return plan;
 }
 

@@ -74,6 +74,8 @@ TEST_F(Plan, OnlyNarrowsByTableSequenceAndMethod) {
   EXPECT_EQ(Count(jobs, "figures "), 0);
   options_.only = {"III"};
   EXPECT_EQ(Count(JobsOf(MakePlan(options_)), "run "), 54);
+  options_.only = {"III", "EVT"};
+  EXPECT_THAT([&] { MakePlan(options_); }, ThrowsMessage<std::runtime_error>(HasSubstr("no run in common")));
   options_.only = {"sofa"};
   EXPECT_THAT([&] { MakePlan(options_); },
               ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("--only sofa"), HasSubstr("sofa_fast"))));
