@@ -23,14 +23,14 @@ double CostPerSecond(const paper::Method& method) {
 
 // `seconds`: part of the log, "A:B"; made when the run begins; empty function: all of it.
 PaperJob RunJobOf(const Recording& recording, const paper::Method& method, const std::string& folder,
-                  const std::string& programs, bool record, const std::function<std::string()>& seconds) {
+                  const std::string& program_id, bool record, const std::function<std::string()>& seconds) {
   const std::string settings = TrackerText(method);
   const std::string& start = recording.sequence->start();
   PaperJob job;
   job.id = (record ? "figures " : "run ") + recording.name + " " + method.id();
   job.folder = folder;
   job.key = "recording " + HexText(HashOf(recording.job.key)) + "\nstart " + start +
-            (record ? "\nfigures\n" : "\n") + settings + "program " + TrackingProgramId(programs) + "\n";
+            (record ? "\nfigures\n" : "\n") + settings + "program " + program_id + "\n";
   job.good_codes = {0, 2};  // 2: LOST, a result too
   job.prepare = [=] {
     const std::string config = folder + "/tracker.textproto";
@@ -61,6 +61,7 @@ std::string JerkySeconds(const std::string& truth_file) {
 
 void PlanRuns(const PaperOptions& options, const std::string& work, PaperPlan* plan) {
   const Selection selection(plan->config, options.only);
+  const std::string program_id = TrackingProgramId(options.programs);
   for (std::size_t k = 0; k < plan->recordings.size(); ++k) {
     const Recording& recording = plan->recordings[k];
     for (const paper::Method& method : AllMethods(plan->config)) {
@@ -75,14 +76,14 @@ void PlanRuns(const PaperOptions& options, const std::string& work, PaperPlan* p
       run.recording = k;
       run.method = method;
       run.wanted = selection.Wants(*recording.sequence, method);
-      run.job = RunJobOf(recording, method, work + "/runs/" + recording.name + "/" + method.id(), options.programs,
+      run.job = RunJobOf(recording, method, work + "/runs/" + recording.name + "/" + method.id(), program_id,
                          false, {});
       run.job.cost = recording.seconds * CostPerSecond(method);
       plan->runs.push_back(run);
       if (recording.sequence->name() != plan->config.figure_sequence() || recording.seed != 1 ||
           method.id() != plan->config.figure_method())
         continue;
-      run.job = RunJobOf(recording, method, work + "/figures/" + recording.name, options.programs, true,
+      run.job = RunJobOf(recording, method, work + "/figures/" + recording.name, program_id, true,
                          [truth = recording.truth] { return JerkySeconds(truth); });
       run.job.cost = (kBefore + kAfter) * CostPerSecond(method);
       plan->figure_run = run;
