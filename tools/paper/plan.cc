@@ -35,8 +35,9 @@ PaperJob RunJobOf(const Recording& recording, const paper::Method& method, const
   job.prepare = [=] {
     const std::string config = folder + "/tracker.textproto";
     WriteText(config, settings);
-    std::vector<std::string> words{"evit", "run", "--log", recording.log, "--map", recording.map, "--rig",
-                                   recording.rig, "--config", config, "--truth", recording.truth, "--out", folder};
+    std::vector<std::string> words{"evit",        "run",           "--log",       recording.log, "--map",
+                                   recording.map, "--rig",         recording.rig, "--config",    config,
+                                   "--truth",     recording.truth, "--out",       folder};
     if (start.empty() || seconds) {
       words.insert(words.end(), {"--initial-from", recording.truth});
     } else {
@@ -68,9 +69,10 @@ void PlanRuns(const PaperOptions& options, const std::string& work, PaperPlan* p
       PlannedRun run;
       run.photometric = IsPhotometric(method);
       if (run.photometric && recording.photometric_map.empty()) {
-        plan->left_out.push_back(recording.name + " " + method.id() +
-                                 ": there is no photometric map of it; make one with `evit map photometric` (see "
-                                 "`photometric_map` in tools/paper/paper.proto)");
+        plan->left_out.push_back(
+            recording.name + " " + method.id() +
+            ": there is no photometric map of it; make one with `evit map photometric` (see "
+            "`photometric_map` in tools/paper/paper.proto)");
         continue;
       }
       run.recording = k;
@@ -111,11 +113,13 @@ PaperPlan MakePlan(const PaperOptions& options) {
   }
   if (!options.vector.empty() && !any_recorded) {
     throw std::runtime_error(options.vector + ": holds no sequence of the configuration, e.g. " +
-                             plan.config.sequence(0).name() + "1.synced.left_event.hdf5 with .imu.txt and .gt.txt");
+                             plan.config.sequence(0).name() +
+                             "1.synced.left_event.hdf5 with .imu.txt and .gt.txt");
   }
   PlanRuns(options, recording.work, &plan);
   if (JobsOf(plan).empty()) {
-    throw std::runtime_error("--only: its words have no run in common; tables, sequences and methods narrow each other");
+    throw std::runtime_error(
+        "--only: its words have no run in common; tables, sequences and methods narrow each other");
   }
   return plan;
 }
@@ -133,7 +137,8 @@ std::vector<PaperJob> JobsOf(const PaperPlan& plan) {
     const std::size_t recording = jobs.size();
     std::size_t map = recording;
     jobs.push_back(plan.recordings[k].job);
-    const bool photometric = std::any_of(runs.begin(), runs.end(), [](const auto* run) { return run->photometric; });
+    const bool photometric =
+        std::any_of(runs.begin(), runs.end(), [](const auto* run) { return run->photometric; });
     if (photometric && plan.recordings[k].photometric_job) {
       map = jobs.size();
       jobs.push_back(*plan.recordings[k].photometric_job);
