@@ -23,19 +23,23 @@ std::string SharedData() {
 void AddPaperCommand(CLI::App* app) {
   auto o = std::make_shared<PaperOptions>();
   CLI::App* paper = app->add_subcommand("paper", "The paper's tables and figures, in one go");
-  paper->add_option("--out", o->out, "Folder for the results; what it holds already is not done again")->required();
+  paper->add_option("--out", o->out, "Folder for the results; what it holds already is not done again")
+      ->required();
   paper->add_option("--vector", o->vector,
                     "Folder of VECtor's files and maps; sequences that are not there are simulated");
   paper->add_option("--config", o->config, "What to run (default: config/paper.textproto)");
-  paper->add_option("--only", o->only,
-                    "Tables (I or normal, II or fast, III or motion_models), sequences and methods to run; the tables "
-                    "still show all that is done");
+  paper->add_option(
+      "--only", o->only,
+      "Tables (I or normal, II or fast, III or motion_models), sequences and methods to run; the tables "
+      "still show all that is done");
   paper->add_option("--seeds", o->seeds, "Rooms of each simulated sequence (default: the configuration's)")
       ->check(CLI::Range(1, 99));
   paper->add_flag("--quick", o->quick, "A try: one room, short clips");
-  paper->add_option("--jobs", o->jobs, "Simulations and runs at a time (default: 2)")->check(CLI::Range(1, 64));
+  paper->add_option("--jobs", o->jobs, "Simulations and runs at a time (default: 2)")
+      ->check(CLI::Range(1, 64));
   paper->footer(
-      "Ctrl-C keeps all that is finished; the same command goes on from there. A simulation or run is done anew only\n"
+      "Ctrl-C keeps all that is finished; the same command goes on from there. A simulation or run is done "
+      "anew only\n"
       "when its inputs, its settings or the program changed. DIR/work may be deleted at any time.\n"
       "Exit code: 0 all done, 1 something failed, 130 interrupted.");
   paper->callback([o] {

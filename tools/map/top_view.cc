@@ -55,11 +55,17 @@ void Write(cv::Mat* picture, const std::string& text, cv::Point at) {
 
 }  // namespace
 
-TopView DrawTopView(const PointMap& map, int side) {
-  const auto x = Range(map, 0), y = Range(map, 1), z = Range(map, 2);
+TopView DrawTopView(const PointMap& map, int side, const std::vector<Eigen::Vector2d>& also) {
+  auto x = Range(map, 0), y = Range(map, 1);
+  const auto z = Range(map, 2);
+  for (const Eigen::Vector2d& p : also) {
+    x = {std::min(x.first, static_cast<float>(p.x())), std::max(x.second, static_cast<float>(p.x()))};
+    y = {std::min(y.first, static_cast<float>(p.y())), std::max(y.second, static_cast<float>(p.y()))};
+  }
   const double width = x.second - x.first, height = y.second - y.first;
   const double scale = side / std::max(width, height);  // pixels per metre
-  const cv::Size plan(std::max(kLeast, static_cast<int>(width * scale)), static_cast<int>(height * scale) + 1);
+  const cv::Size plan(std::max(kLeast, static_cast<int>(width * scale)),
+                      static_cast<int>(height * scale) + 1);
   cv::Mat picture(plan.height + 2 * kBorder + kFooter, plan.width + 2 * kBorder, CV_8UC3, kPaper);
   const auto pixel = [&](double px, double py) {
     return cv::Point(kBorder + static_cast<int>((px - x.first) * scale),

@@ -13,8 +13,8 @@ struct Figure {
 };
 
 /// Draws the paper's figures from the runs that are done, into `folder`: trajectories.png, motion_models.png,
-/// window.png. Old ones that cannot be drawn today are removed. Throws std::runtime_error where the folder cannot be
-/// written.
+/// window.png. Old ones that cannot be drawn today are removed. Throws std::runtime_error where the folder
+/// cannot be written.
 std::vector<Figure> DrawFigures(const std::string& folder, const PaperPlan& plan);
 
 }  // namespace evit

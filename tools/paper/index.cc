@@ -56,7 +56,8 @@ void AppendConditions(const PaperPlan& plan, const PaperResults& results, std::o
 
 std::string DescribeCommit(const std::string& source_tree) {
   const std::string command =
-      JoinCommandLine({"git", "-C", source_tree, "describe", "--always", "--dirty", "--tags"}) + " 2>/dev/null";
+      JoinCommandLine({"git", "-C", source_tree, "describe", "--always", "--dirty", "--tags"}) +
+      " 2>/dev/null";
   std::string text;
   if (FILE* pipe = popen(command.c_str(), "r")) {
     char line[200];
@@ -72,7 +73,8 @@ std::string DescribeMachine() {
   uname(&system);
   const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGE_SIZE);
   char memory[32];
-  std::snprintf(memory, sizeof memory, "%.0f GB", 1e-9 * static_cast<double>(pages) * static_cast<double>(size));
+  std::snprintf(memory, sizeof memory, "%.0f GB",
+                1e-9 * static_cast<double>(pages) * static_cast<double>(size));
   return FieldOf("/proc/cpuinfo", "model name") + ", " + std::to_string(sysconf(_SC_NPROCESSORS_ONLN)) +
          " processors, " + memory + ", " + system.sysname + " " + system.release;
 }
@@ -81,10 +83,14 @@ std::string IndexText(const PaperPlan& plan, const PaperResults& results, const 
                       const IndexFacts& facts) {
   std::ostringstream out;
   out << "# The paper's tables and figures\n\n"
-         "RMSE of the absolute trajectory error, all online poses, at 30, 50 and 100 % of a sequence. A method that is "
-         "lost has ended: \"-\" where it did not reach a milestone. With several rooms: the median, and the worst in "
-         "brackets; a milestone counts where it was reached in all of them (k/n: in k of n). Best of a sequence in "
-         "bold. Keyframes Hz: poses per second while it tracked. CPU s/s: CPU seconds of all services per second of the "
+         "RMSE of the absolute trajectory error, all online poses, at 30, 50 and 100 % of a sequence. A "
+         "method that is "
+         "lost has ended: \"-\" where it did not reach a milestone. With several rooms: the median, and the "
+         "worst in "
+         "brackets; a milestone counts where it was reached in all of them (k/n: in k of n). Best of a "
+         "sequence in "
+         "bold. Keyframes Hz: poses per second while it tracked. CPU s/s: CPU seconds of all services per "
+         "second of the "
          "sequence, over the whole of it.\n\n";
   if (facts.outcome.interrupted) out << "**Interrupted: what follows is a part.**\n\n";
   AppendTables(plan, results, &out);
@@ -95,14 +101,17 @@ std::string IndexText(const PaperPlan& plan, const PaperResults& results, const 
     if (!figure.file.empty()) out << "\n![](figures/" << figure.file << ")\n";
   }
   if (!facts.outcome.failures.empty()) out << "\n## Failed\n\n";
-  for (const auto& failure : facts.outcome.failures) out << "- " << failure.id << ": " << failure.words << "\n";
+  for (const auto& failure : facts.outcome.failures)
+    out << "- " << failure.id << ": " << failure.words << "\n";
   char wall[64];
   std::snprintf(wall, sizeof wall, "%.0f s", facts.wall_s);
   out << "\n## How it was made\n\n"
-      << "- command: `" << facts.command << "`\n- commit: " << facts.commit << "\n- machine: " << facts.machine
-      << "\n- time: " << wall << "; " << facts.outcome.done << " simulations, imports and runs done, "
-      << facts.outcome.kept << " kept from before\n- configuration: each run's folder below `work/runs` has its "
-      << "`tracker.textproto` and `report.json`; the methods:\n\n| id | name | frequency | settings |\n|---|---|---|---|\n";
+      << "- command: `" << facts.command << "`\n- commit: " << facts.commit
+      << "\n- machine: " << facts.machine << "\n- time: " << wall << "; " << facts.outcome.done
+      << " simulations, imports and runs done, " << facts.outcome.kept
+      << " kept from before\n- configuration: each run's folder below `work/runs` has its "
+      << "`tracker.textproto` and `report.json`; the methods:\n\n| id | name | frequency | settings "
+         "|\n|---|---|---|---|\n";
   for (const paper::Method& m : AllMethods(plan.config)) {
     out << "| " << m.id() << " | " << m.name() << " | " << m.frequency() << " | "
         << m.config().substr(m.config().rfind('/') + 1);

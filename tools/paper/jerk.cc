@@ -10,7 +10,8 @@ Utime MostJerky(const Trajectory& trajectory, double before, double after) {
   double most = -1;
   for (Utime t = first + us(before); t <= last - us(after); t += kStep / 5) {
     SE3 a, b, c;
-    if (!PoseAt(trajectory, t - kStep, &a) || !PoseAt(trajectory, t, &b) || !PoseAt(trajectory, t + kStep, &c))
+    if (!PoseAt(trajectory, t - kStep, &a) || !PoseAt(trajectory, t, &b) ||
+        !PoseAt(trajectory, t + kStep, &c))
       continue;
     const double change = (LogSO3(b.q.conjugate() * c.q) - LogSO3(a.q.conjugate() * b.q)).norm();
     if (change > most) most = change, best = t;

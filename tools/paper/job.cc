@@ -63,10 +63,9 @@ class Worker {
     if (command.id.find_first_of("/-") != std::string::npos) command.id = "program";
     command.exec = JoinCommandLine(words);
     command.stop_time_allowed = 5;
-    process_ = std::make_unique<ManagedProcess>(command, ManagedProcess::Places{programs_, job_->folder},
-                                                [this](const std::string&, const std::string& text) {
-                                                  share_ = std::max(share_, ShareIn(text));
-                                                });
+    process_ = std::make_unique<ManagedProcess>(
+        command, ManagedProcess::Places{programs_, job_->folder},
+        [this](const std::string&, const std::string& text) { share_ = std::max(share_, ShareIn(text)); });
     process_->Start();
     return State::kRunning;
   }
@@ -87,7 +86,8 @@ class Worker {
   std::size_t index() const { return index_; }
   const std::string& words() const { return words_; }
   double share() const {
-    return (static_cast<double>(next_) + share_) / static_cast<double>(std::max<std::size_t>(1, commands_.size()));
+    return (static_cast<double>(next_) + share_) /
+           static_cast<double>(std::max<std::size_t>(1, commands_.size()));
   }
 
  private:
@@ -144,9 +144,8 @@ class Schedule {
   }
   std::size_t kept() const { return kept_; }
   std::string Note(const std::vector<std::unique_ptr<Worker>>& workers) const {
-    const auto done = std::count_if(states_.begin(), states_.end(), [](State s) {
-      return s == State::kDone || s == State::kFailed;
-    });
+    const auto done = std::count_if(states_.begin(), states_.end(),
+                                    [](State s) { return s == State::kDone || s == State::kFailed; });
     std::string text = std::to_string(done) + "/" + std::to_string(jobs_.size());
     for (const auto& w : workers) text += (w == workers.front() ? ": " : ", ") + w->job().id;
     return text;

@@ -20,7 +20,8 @@ KeyframeLog::KeyframeLog(const std::string& path) : log_(path) {
     if (EndsWith(log_.channel(entry), "WINDOW_STATE")) {
       log_.Read(entry, &bytes);
       window_state_t window;
-      if (DecodeChecked(bytes.data(), bytes.size(), &window) && !window.node.empty()) windows_.push_back(window);
+      if (DecodeChecked(bytes.data(), bytes.size(), &window) && !window.node.empty())
+        windows_.push_back(window);
     } else if (EndsWith(log_.channel(entry), "KEYFRAME")) {
       log_.Read(entry, &bytes);
       keyframe_t keyframe;
@@ -51,13 +52,15 @@ bool KeyframeLog::Read(std::int64_t seq, RecordedKeyframe* keyframe) const {
 BodyState StateOf(const node_state_t& node) {
   BodyState state;
   const double* q = node.orientation;
-  state.T_world_body = {Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(), Eigen::Vector3d(node.position)};
+  state.T_world_body = {Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(),
+                        Eigen::Vector3d(node.position)};
   state.velocity = Eigen::Vector3d(node.velocity);
   state.bias = {Eigen::Vector3d(node.gyro_bias), Eigen::Vector3d(node.accel_bias)};
   return state;
 }
 
-SE3 PredictFrom(const window_state_t& before, const RecordedKeyframe& keyframe, int motion_model, double gravity) {
+SE3 PredictFrom(const window_state_t& before, const RecordedKeyframe& keyframe, int motion_model,
+                double gravity) {
   const node_state_t &a = before.node.at(before.node.size() - 2), &b = before.node.back();
   const BodyState older = StateOf(a), newer = StateOf(b);
   if (motion_model == 0) return newer.T_world_body;
@@ -72,7 +75,8 @@ SE3 PredictFrom(const window_state_t& before, const RecordedKeyframe& keyframe, 
 
 double MeanPixelDistance(const Rig& rig, const std::vector<Eigen::Vector3f>& points, const SE3& T_map_body_a,
                          const SE3& T_map_body_b) {
-  const SE3 a = (T_map_body_a * rig.T_body_camera).Inverse(), b = (T_map_body_b * rig.T_body_camera).Inverse();
+  const SE3 a = (T_map_body_a * rig.T_body_camera).Inverse(),
+            b = (T_map_body_b * rig.T_body_camera).Inverse();
   double sum = 0;
   int count = 0;
   for (const Eigen::Vector3f& point : points) {

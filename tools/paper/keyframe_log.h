@@ -41,12 +41,14 @@ class KeyframeLog {
 /// The state of a window's node.
 BodyState StateOf(const node_state_t& node);
 
-/// Where the three motion models (0 previous pose, 1 constant velocity, 2 IMU) expect the body at `keyframe`, from the
-/// window that was there before it (its newest node is the keyframe before). T_map_body. Requires two nodes.
-SE3 PredictFrom(const window_state_t& before, const RecordedKeyframe& keyframe, int motion_model, double gravity);
+/// Where the three motion models (0 previous pose, 1 constant velocity, 2 IMU) expect the body at `keyframe`,
+/// from the window that was there before it (its newest node is the keyframe before). T_map_body. Requires
+/// two nodes.
+SE3 PredictFrom(const window_state_t& before, const RecordedKeyframe& keyframe, int motion_model,
+                double gravity);
 
-/// Mean distance in the image between `points` (map frame) seen from two poses, pixels; 0 where none is in view of
-/// both.
+/// Mean distance in the image between `points` (map frame) seen from two poses, pixels; 0 where none is in
+/// view of both.
 double MeanPixelDistance(const Rig& rig, const std::vector<Eigen::Vector3f>& points, const SE3& T_map_body_a,
                          const SE3& T_map_body_b);
 

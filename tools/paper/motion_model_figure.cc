@@ -37,18 +37,20 @@ Instant MostSurprising(const KeyframeLog& log, const Rig& rig, const MapIndex& m
     most = off;
     best = {&before, keyframe, found};
   }
-  if (best.before == nullptr) throw std::runtime_error("no keyframe with a whole window before it was recorded");
+  if (best.before == nullptr)
+    throw std::runtime_error("no keyframe with a whole window before it was recorded");
   return best;
 }
 
 }  // namespace
 
-void DrawMotionModels(const std::string& path, const std::string& title, const KeyframeLog& log, const Rig& rig,
-                      const MapIndex& map) {
+void DrawMotionModels(const std::string& path, const std::string& title, const KeyframeLog& log,
+                      const Rig& rig, const MapIndex& map) {
   const Instant instant = MostSurprising(log, rig, map);
   const std::vector<Eigen::Vector3f> points = VisibleFrom(map, rig, instant.found, 3000);
   const double zoom = 720.0 / instant.keyframe.width;
-  const int width = 720, height = static_cast<int>(zoom * instant.keyframe.height), gap = 20, caption = 40, top = 50;
+  const int width = 720, height = static_cast<int>(zoom * instant.keyframe.height), gap = 20, caption = 40,
+            top = 50;
   cv::Mat image(top + 2 * (height + caption), 2 * width + 3 * gap, CV_8UC3, cv::Scalar(255, 255, 255));
   DrawText(&image, title, {image.cols / 2, 34}, 0.8, Anchor::kCenter, {20, 20, 20}, 2);
   const char* names[] = {"zeroth-order: previous pose", "first-order: constant velocity", "second-order: IMU",

@@ -33,7 +33,8 @@ int MakePaper(const PaperOptions& options, const std::string& command, const std
     ProgressBar bar("paper");
     facts.outcome = RunJobs(
         JobsOf(plan), options.jobs, options.programs,
-        [&](double share, const std::string& note) { bar.Show(share, note); }, [] { return g_interrupted != 0; });
+        [&](double share, const std::string& note) { bar.Show(share, note); },
+        [] { return g_interrupted != 0; });
   }
   for (const auto& failure : facts.outcome.failures)
     std::fprintf(stderr, "evit paper: %s failed: %s\n", failure.id.c_str(), failure.words.c_str());

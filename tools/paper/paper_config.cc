@@ -58,7 +58,8 @@ void CheckSequence(const std::string& path, const paper::Sequence& s) {
   Require(s.t_map_world_size() == 0 || s.t_map_world_size() == 16, path,
           where + "T_map_world: 16 numbers are wanted (4x4, row-major), got " +
               std::to_string(s.t_map_world_size()));
-  Require(s.simulated().recorded_begin_s() >= 0, path, where + "simulated.recorded_begin_s: must not be negative");
+  Require(s.simulated().recorded_begin_s() >= 0, path,
+          where + "simulated.recorded_begin_s: must not be negative");
 }
 
 }  // namespace

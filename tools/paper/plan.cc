@@ -23,20 +23,21 @@ double CostPerSecond(const paper::Method& method) {
 
 // `seconds`: part of the log, "A:B"; made when the run begins; empty function: all of it.
 PaperJob RunJobOf(const Recording& recording, const paper::Method& method, const std::string& folder,
-                  const std::string& programs, bool record, const std::function<std::string()>& seconds) {
+                  const std::string& program_id, bool record, const std::function<std::string()>& seconds) {
   const std::string settings = TrackerText(method);
   const std::string& start = recording.sequence->start();
   PaperJob job;
   job.id = (record ? "figures " : "run ") + recording.name + " " + method.id();
   job.folder = folder;
   job.key = "recording " + HexText(HashOf(recording.job.key)) + "\nstart " + start +
-            (record ? "\nfigures\n" : "\n") + settings + "program " + TrackingProgramId(programs) + "\n";
+            (record ? "\nfigures\n" : "\n") + settings + "program " + program_id + "\n";
   job.good_codes = {0, 2};  // 2: LOST, a result too
   job.prepare = [=] {
     const std::string config = folder + "/tracker.textproto";
     WriteText(config, settings);
-    std::vector<std::string> words{"evit", "run", "--log", recording.log, "--map", recording.map, "--rig",
-                                   recording.rig, "--config", config, "--truth", recording.truth, "--out", folder};
+    std::vector<std::string> words{"evit",        "run",           "--log",       recording.log, "--map",
+                                   recording.map, "--rig",         recording.rig, "--config",    config,
+                                   "--truth",     recording.truth, "--out",       folder};
     if (start.empty() || seconds) {
       words.insert(words.end(), {"--initial-from", recording.truth});
     } else {
@@ -61,28 +62,30 @@ std::string JerkySeconds(const std::string& truth_file) {
 
 void PlanRuns(const PaperOptions& options, const std::string& work, PaperPlan* plan) {
   const Selection selection(plan->config, options.only);
+  const std::string program_id = TrackingProgramId(options.programs);
   for (std::size_t k = 0; k < plan->recordings.size(); ++k) {
     const Recording& recording = plan->recordings[k];
     for (const paper::Method& method : AllMethods(plan->config)) {
       PlannedRun run;
       run.photometric = IsPhotometric(method);
       if (run.photometric && recording.photometric_map.empty()) {
-        plan->left_out.push_back(recording.name + " " + method.id() +
-                                 ": there is no photometric map of it; make one with `evit map photometric` (see "
-                                 "`photometric_map` in tools/paper/paper.proto)");
+        plan->left_out.push_back(
+            recording.name + " " + method.id() +
+            ": there is no photometric map of it; make one with `evit map photometric` (see "
+            "`photometric_map` in tools/paper/paper.proto)");
         continue;
       }
       run.recording = k;
       run.method = method;
       run.wanted = selection.Wants(*recording.sequence, method);
-      run.job = RunJobOf(recording, method, work + "/runs/" + recording.name + "/" + method.id(), options.programs,
+      run.job = RunJobOf(recording, method, work + "/runs/" + recording.name + "/" + method.id(), program_id,
                          false, {});
       run.job.cost = recording.seconds * CostPerSecond(method);
       plan->runs.push_back(run);
       if (recording.sequence->name() != plan->config.figure_sequence() || recording.seed != 1 ||
           method.id() != plan->config.figure_method())
         continue;
-      run.job = RunJobOf(recording, method, work + "/figures/" + recording.name, options.programs, true,
+      run.job = RunJobOf(recording, method, work + "/figures/" + recording.name, program_id, true,
                          [truth = recording.truth] { return JerkySeconds(truth); });
       run.job.cost = (kBefore + kAfter) * CostPerSecond(method);
       plan->figure_run = run;
@@ -110,9 +113,14 @@ PaperPlan MakePlan(const PaperOptions& options) {
   }
   if (!options.vector.empty() && !any_recorded) {
     throw std::runtime_error(options.vector + ": holds no sequence of the configuration, e.g. " +
-                             plan.config.sequence(0).name() + "1.synced.left_event.hdf5 with .imu.txt and .gt.txt");
+                             plan.config.sequence(0).name() +
+                             "1.synced.left_event.hdf5 with .imu.txt and .gt.txt");
   }
   PlanRuns(options, recording.work, &plan);
+  if (JobsOf(plan).empty()) {
+    throw std::runtime_error(
+        "--only: its words have no run in common; tables, sequences and methods narrow each other");
+  }
   return plan;
 }
 
@@ -129,7 +137,8 @@ std::vector<PaperJob> JobsOf(const PaperPlan& plan) {
     const std::size_t recording = jobs.size();
     std::size_t map = recording;
     jobs.push_back(plan.recordings[k].job);
-    const bool photometric = std::any_of(runs.begin(), runs.end(), [](const auto* run) { return run->photometric; });
+    const bool photometric =
+        std::any_of(runs.begin(), runs.end(), [](const auto* run) { return run->photometric; });
     if (photometric && plan.recordings[k].photometric_job) {
       map = jobs.size();
       jobs.push_back(*plan.recordings[k].photometric_job);

@@ -74,6 +74,8 @@ TEST_F(Plan, OnlyNarrowsByTableSequenceAndMethod) {
   EXPECT_EQ(Count(jobs, "figures "), 0);
   options_.only = {"III"};
   EXPECT_EQ(Count(JobsOf(MakePlan(options_)), "run "), 54);
+  options_.only = {"III", "EVT"};
+  EXPECT_THAT([&] { MakePlan(options_); }, ThrowsMessage<std::runtime_error>(HasSubstr("no run in common")));
   options_.only = {"sofa"};
   EXPECT_THAT([&] { MakePlan(options_); },
               ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("--only sofa"), HasSubstr("sofa_fast"))));
@@ -96,8 +98,8 @@ TEST_F(Plan, KeysChangeWithWhatTheyDependOn) {
         before[k].id.find(" evt") != std::string::npos || before[k].id.find(" evpt") != std::string::npos;
     // The rig has another path, and so has a new recording; settings are compared apart from that.
     const auto settings_of = [](const PaperJob& job) { return job.key.substr(job.key.find('\n')); };
-    if (before[k].id.rfind("run ", 0) == 0)
-      EXPECT_EQ(settings_of(before[k]) == settings_of(after[k]), other_file);
+    if (before[k].id.rfind("run ", 0) != 0) continue;
+    EXPECT_EQ(settings_of(before[k]) == settings_of(after[k]), other_file) << before[k].id;
   }
 }
 

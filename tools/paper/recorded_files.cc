@@ -20,7 +20,8 @@ std::string FindMap(const std::string& folder, const paper::Sequence& sequence) 
     const std::string path = (fs::path(folder) / (sequence.scene() + end)).string();
     if (fs::exists(path)) return path;
   }
-  throw std::runtime_error(folder + ": holds " + sequence.name() + " but no map of its scene: " + sequence.scene() +
+  throw std::runtime_error(folder + ": holds " + sequence.name() +
+                           " but no map of its scene: " + sequence.scene() +
                            ".pcd, .ply or .txt is wanted (z up, metres), or `map` in the configuration");
 }
 
@@ -30,8 +31,8 @@ std::string FindPhotometricMap(const std::string& folder, const paper::Sequence&
   const std::string path = (fs::path(folder) / name).string();
   if (fs::exists(path)) return path;
   if (!sequence.has_photometric_map()) return "";
-  throw std::runtime_error(path + ": there is no such map; see `photometric_map` of sequence " + sequence.name() +
-                           " in the configuration");
+  throw std::runtime_error(path + ": there is no such map; see `photometric_map` of sequence " +
+                           sequence.name() + " in the configuration");
 }
 
 std::vector<std::string> FindBags(const fs::path& folder, const std::string& name) {

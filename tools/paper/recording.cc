@@ -37,13 +37,14 @@ PaperJob PhotometricJob(const Recording& recording, const std::string& images) {
   job.folder = fs::path(recording.photometric_map).parent_path().string();
   job.key = "recording " + HexText(HashOf(recording.job.key)) + "\n";
   job.cost = 10;
-  const std::vector<std::string> words{"evit", "map", "photometric", images, "--out", recording.photometric_map};
+  const std::vector<std::string> words{"evit", "map",   "photometric",
+                                       images, "--out", recording.photometric_map};
   job.prepare = [words] { return PaperJob::Commands{words}; };
   return job;
 }
 
-Recording Simulated(const paper::Paper& config, const paper::Sequence& sequence, const RecordingOptions& options,
-                    int seed) {
+Recording Simulated(const paper::Paper& config, const paper::Sequence& sequence,
+                    const RecordingOptions& options, int seed) {
   Recording r;
   r.sequence = &sequence;
   r.seed = seed;
@@ -56,15 +57,17 @@ Recording Simulated(const paper::Paper& config, const paper::Sequence& sequence,
   r.rig = made + "/rig.textproto";
 
   const paper::Simulated& motion = sequence.simulated();
-  std::vector<std::string> words{"evit",   "simulate", "--name", sequence.name(), "--scene", std::to_string(seed),
-                                 "--seed", std::to_string(seed), "--rig", config.rig(), "--rgbd"};
+  std::vector<std::string> words{"evit",    "simulate",           "--name", sequence.name(),
+                                 "--scene", std::to_string(seed), "--seed", std::to_string(seed),
+                                 "--rig",   config.rig(),         "--rgbd"};
   std::string inputs = "rig " + HexText(HashOfFile(config.rig())) + "\n";
-  const std::string recorded =
-      motion.has_recorded() && !options.shared_data.empty() ? options.shared_data + "/" + motion.recorded() : "";
+  const std::string recorded = motion.has_recorded() && !options.shared_data.empty()
+                                   ? options.shared_data + "/" + motion.recorded()
+                                   : "";
   if (!recorded.empty() && fs::exists(recorded)) {
     const double begin = motion.recorded_begin_s();
-    words.insert(words.end(), {"--trajectory", recorded, "--seconds",
-                               Text(begin) + ":" + Text(begin + options.seconds)});
+    words.insert(words.end(),
+                 {"--trajectory", recorded, "--seconds", Text(begin) + ":" + Text(begin + options.seconds)});
     inputs += "motion " + HexText(HashOfFile(recorded)) + "\n";
     r.source = "simulated from VECtor's recorded motion " + fs::path(recorded).stem().string();
   } else {
@@ -78,8 +81,8 @@ Recording Simulated(const paper::Paper& config, const paper::Sequence& sequence,
   r.job.folder = folder;
   r.job.key = Joined(words) + "\n" + inputs + "program " + RecordingProgramId() + "\n";
   r.job.cost = 11 * options.seconds;
-  const std::vector<std::string> import{"evit",  "import", "vector", made, "--sequence", sequence.name(),
-                                        "--rig", r.rig,    "--out",  r.log};
+  const std::vector<std::string> import{"evit",          "import", "vector", made,    "--sequence",
+                                        sequence.name(), "--rig",  r.rig,    "--out", r.log};
   words.insert(words.end(), {"--threads", std::to_string(options.threads), "--out", made});
   r.job.prepare = [words, import] { return PaperJob::Commands{words, import}; };
   r.photometric_map = options.work + "/photometric/" + r.name + "/map.ply";
@@ -92,8 +95,8 @@ Recording Simulated(const paper::Paper& config, const paper::Sequence& sequence,
   return r;
 }
 
-Recording Recorded(const paper::Paper& config, const paper::Sequence& sequence, const RecordingOptions& options,
-                   const RecordedFiles& files) {
+Recording Recorded(const paper::Paper& config, const paper::Sequence& sequence,
+                   const RecordingOptions& options, const RecordedFiles& files) {
   Recording r;
   r.sequence = &sequence;
   r.name = sequence.name() + ".recorded";

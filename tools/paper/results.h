@@ -26,7 +26,8 @@ struct PaperResults {
 
 /// The paper's tables: I normal sequences, II fast ones, III motion models.
 enum class PaperTable { kNormal, kFast, kMotionModels };
-inline constexpr PaperTable kPaperTables[] = {PaperTable::kNormal, PaperTable::kFast, PaperTable::kMotionModels};
+inline constexpr PaperTable kPaperTables[] = {PaperTable::kNormal, PaperTable::kFast,
+                                              PaperTable::kMotionModels};
 /// For file names and --only ("normal"), and as in the paper ("I").
 const char* TableId(PaperTable table);
 const char* TableNumber(PaperTable table);

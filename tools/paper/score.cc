@@ -26,9 +26,9 @@ report::Report ReadReport(const std::string& folder) {
 
 Trajectory Until(Trajectory trajectory, std::optional<Utime> end) {
   if (!end) return trajectory;
-  trajectory.erase(std::remove_if(trajectory.begin(), trajectory.end(),
-                                  [&](const StampedPose& s) { return s.t >= *end; }),
-                   trajectory.end());
+  trajectory.erase(
+      std::remove_if(trajectory.begin(), trajectory.end(), [&](const StampedPose& s) { return s.t >= *end; }),
+      trajectory.end());
   return trajectory;
 }
 

@@ -32,12 +32,13 @@ struct RunScore {
   std::string lost;             // why and when it was lost; empty: never
 };
 
-/// Scores `estimate` up to `lost_at` (first loss of track; nothing: never): as in the paper a method that is lost
-/// has ended, even where it would find itself again. `truth`: of the sequence's span, body in the map frame.
+/// Scores `estimate` up to `lost_at` (first loss of track; nothing: never): as in the paper a method that is
+/// lost has ended, even where it would find itself again. `truth`: of the sequence's span, body in the map
+/// frame.
 RunScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estimate, std::optional<Utime> lost_at);
 
-/// Reads what `evit run` left in `folder` and scores it against the TUM file `truth`. Throws std::runtime_error
-/// naming the file.
+/// Reads what `evit run` left in `folder` and scores it against the TUM file `truth`. Throws
+/// std::runtime_error naming the file.
 RunScore ScoreRun(const std::string& folder, const std::string& truth);
 
 /// The trajectory of such a run, up to its first loss.

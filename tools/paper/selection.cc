@@ -45,7 +45,8 @@ Selection::Selection(const paper::Paper& config, const std::vector<std::string>&
       methods_.push_back(m.id());
       found = true;
     }
-    if (!found) throw std::runtime_error("--only " + word + ": is no table, sequence or method; known: " + known);
+    if (!found)
+      throw std::runtime_error("--only " + word + ": is no table, sequence or method; known: " + known);
   }
 }
 

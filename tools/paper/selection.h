@@ -7,8 +7,8 @@
 
 namespace evit {
 
-/// Which runs `--only` words ask for: tables ("I" or "normal", ...), sequences, methods (id, or name for all of that
-/// name). Words of one kind add up, kinds narrow each other: "II EVIT" is EVIT on the fast sequences.
+/// Which runs `--only` words ask for: tables ("I" or "normal", ...), sequences, methods (id, or name for all
+/// of that name). Words of one kind add up, kinds narrow each other: "II EVIT" is EVIT on the fast sequences.
 class Selection {
  public:
   /// Throws std::runtime_error, listing what there is, for a word that is none of these.

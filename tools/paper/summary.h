@@ -17,7 +17,7 @@ Spread SpreadOf(std::vector<double> values);
 /// One method on one sequence, all seeds.
 struct Summary {
   struct Milestone {
-    int reached = 0;                                // in so many seeds
+    int reached = 0;                                     // in so many seeds
     std::optional<Spread> position_cm, orientation_deg;  // only where it was reached in all of them
   };
   int seeds = 0;

@@ -4,7 +4,8 @@
 
 namespace evit {
 
-std::vector<Eigen::Vector3f> VisibleFrom(const MapIndex& map, const Rig& rig, const SE3& T_map_body, int most) {
+std::vector<Eigen::Vector3f> VisibleFrom(const MapIndex& map, const Rig& rig, const SE3& T_map_body,
+                                         int most) {
   VisibilityQuery query;
   query.T_world_camera = T_map_body * rig.T_body_camera;
   query.camera = rig.camera;
@@ -15,8 +16,9 @@ std::vector<Eigen::Vector3f> VisibleFrom(const MapIndex& map, const Rig& rig, co
   return points;
 }
 
-cv::Mat SurfaceWithPoints(const RecordedKeyframe& keyframe, const Rig& rig, const std::vector<Eigen::Vector3f>& points,
-                          const SE3& T_map_body, const cv::Scalar& color, double zoom) {
+cv::Mat SurfaceWithPoints(const RecordedKeyframe& keyframe, const Rig& rig,
+                          const std::vector<Eigen::Vector3f>& points, const SE3& T_map_body,
+                          const cv::Scalar& color, double zoom) {
   cv::Mat gray(keyframe.height, keyframe.width, CV_8U), picture;
   std::copy(keyframe.surface.begin(), keyframe.surface.end(), gray.begin<std::uint8_t>());
   cv::cvtColor(gray, picture, cv::COLOR_GRAY2BGR);
@@ -25,10 +27,11 @@ cv::Mat SurfaceWithPoints(const RecordedKeyframe& keyframe, const Rig& rig, cons
   constexpr int kShift = 4;
   for (const Eigen::Vector3f& point : points) {
     Eigen::Vector2d pixel;
-    if (!rig.camera.Project(T_camera_map * point.cast<double>(), &pixel) || !rig.camera.Contains(pixel)) continue;
+    if (!rig.camera.Project(T_camera_map * point.cast<double>(), &pixel) || !rig.camera.Contains(pixel))
+      continue;
     const Eigen::Vector2d at = (zoom * (pixel.array() + 0.5) - 0.5) * (1 << kShift);
-    cv::circle(picture, {static_cast<int>(at.x()), static_cast<int>(at.y())}, static_cast<int>(zoom * (1 << kShift)),
-               color, cv::FILLED, cv::LINE_AA, kShift);
+    cv::circle(picture, {static_cast<int>(at.x()), static_cast<int>(at.y())},
+               static_cast<int>(zoom * (1 << kShift)), color, cv::FILLED, cv::LINE_AA, kShift);
   }
   return picture;
 }

@@ -47,8 +47,8 @@ std::vector<std::string> TextsOf(const std::vector<Cell>& cells, const std::vect
   }
   std::vector<std::string> texts;
   for (std::size_t k = 0; k < cells.size(); ++k) {
-    const bool is_best = cells.size() > 1 && cells[k].spread() &&
-                         Number(cells[k].spread()->median) == Number(best);
+    const bool is_best =
+        cells.size() > 1 && cells[k].spread() && Number(cells[k].spread()->median) == Number(best);
     texts.push_back(Text(cells[k], seeds[k], is_best));
   }
   return texts;
@@ -125,8 +125,8 @@ TextTable PaperLayout(const paper::Paper& config, const PaperResults& results, P
         out.header.push_back(model.name() + " " + what);
     }
   } else {
-    out.header = {"Sequence", "Method",  "Frequency",   "30 % Pos.", "30 % Orient.", "50 % Pos.", "50 % Orient.",
-                  "100 % Pos.", "100 % Orient.", "Keyframes Hz", "CPU s/s"};
+    out.header = {"Sequence",     "Method",     "Frequency",     "30 % Pos.",    "30 % Orient.", "50 % Pos.",
+                  "50 % Orient.", "100 % Pos.", "100 % Orient.", "Keyframes Hz", "CPU s/s"};
   }
   for (const Group& group : GroupsOf(config, results, table)) {
     if (table == PaperTable::kMotionModels) {

@@ -40,12 +40,15 @@ Json ToJson(const Summary::Milestone& milestone) {
 }
 
 Json ToJson(const RunScore& run, std::size_t alignment) {
-  Json json{{"tracked", run.tracked}, {"keyframe_rate_hz", run.keyframe_rate_hz}, {"cpu_s_per_s", run.cpu_s_per_s},
+  Json json{{"tracked", run.tracked},
+            {"keyframe_rate_hz", run.keyframe_rate_hz},
+            {"cpu_s_per_s", run.cpu_s_per_s},
             {"lost", run.lost}};
   for (std::size_t m = 0; m < kMilestones.size(); ++m) {
     const auto& ate = run.ate[alignment][m];
     json[Percent(m) + "%"] =
-        ate ? Json{{"position_cm", ate->position_cm}, {"orientation_deg", ate->orientation_deg}} : Json(nullptr);
+        ate ? Json{{"position_cm", ate->position_cm}, {"orientation_deg", ate->orientation_deg}}
+            : Json(nullptr);
   }
   return json;
 }
@@ -98,9 +101,10 @@ TextTable LongLayout(const paper::Paper& config, const PaperResults& results, Pa
   for (const TableRow& row : RowsOf(config, results, table)) {
     const Summary s = Summarize(*row.runs);
     const auto source = results.sources.find(row.sequence->name());
-    std::vector<std::string> cells{row.sequence->name(), source == results.sources.end() ? "" : source->second,
-                                   row.method->id(), row.method->name(), row.method->frequency(),
-                                   std::to_string(s.seeds)};
+    std::vector<std::string> cells{
+        row.sequence->name(),    source == results.sources.end() ? "" : source->second,
+        row.method->id(),        row.method->name(),
+        row.method->frequency(), std::to_string(s.seeds)};
     for (const Summary::Milestone& m : s.ate[Index(alignment)]) {
       cells.push_back(std::to_string(m.reached));
       for (const auto& spread : {m.position_cm, m.orientation_deg}) {
@@ -118,8 +122,10 @@ TextTable LongLayout(const paper::Paper& config, const PaperResults& results, Pa
 
 std::string TableJson(const paper::Paper& config, const PaperResults& results, PaperTable table,
                       Alignment alignment) {
-  Json json{{"table", TableNumber(table)}, {"title", TableTitle(table, alignment)},
-            {"alignment", AlignmentId(alignment)}, {"rows", Json::array()}};
+  Json json{{"table", TableNumber(table)},
+            {"title", TableTitle(table, alignment)},
+            {"alignment", AlignmentId(alignment)},
+            {"rows", Json::array()}};
   for (const TableRow& row : RowsOf(config, results, table)) {
     const Summary s = Summarize(*row.runs);
     const auto source = results.sources.find(row.sequence->name());

@@ -14,7 +14,7 @@ namespace {
 constexpr double kDegrees = 57.295779513082323;
 constexpr double kGap = 0.3;  // s
 const cv::Scalar kTruth(150, 150, 150);
-const cv::Scalar kColors[] = {{60, 140, 230}, {190, 110, 30},  {150, 50, 130}, {70, 150, 50},
+const cv::Scalar kColors[] = {{60, 140, 230}, {190, 110, 30}, {150, 50, 130}, {70, 150, 50},
                               {40, 40, 200},  {160, 160, 20}, {60, 90, 120}};
 
 // Six curves over time: x, y, z in metres, then roll, pitch, yaw in degrees.

@@ -8,9 +8,10 @@
 
 namespace evit {
 
-/// The paper's Fig. 1: one window of keyframes, the one that spans the longest way: the map from above with each
-/// camera's field of view, the cameras again at a larger scale, joined by their IMU terms, and each time surface with
-/// the map on it. Writes a PNG. Throws std::runtime_error: no whole window recorded, or the file cannot be written.
+/// The paper's Fig. 1: one window of keyframes, the one that spans the longest way: the map from above with
+/// each camera's field of view, the cameras again at a larger scale, joined by their IMU terms, and each time
+/// surface with the map on it. Writes a PNG. Throws std::runtime_error: no whole window recorded, or the file
+/// cannot be written.
 void DrawWindow(const std::string& path, const std::string& title, const KeyframeLog& log, const Rig& rig,
                 const MapIndex& map);
 

@@ -8,8 +8,8 @@
 
 namespace evit {
 
-/// Writes what comes on some channels to an LCM log, as lcm-logger would, with the host's time of arrival. Where
-/// the disk takes no more, the run goes on, and Close() says so.
+/// Writes what comes on some channels to an LCM log, as lcm-logger would, with the host's time of arrival.
+/// Where the disk takes no more, the run goes on, and Close() says so.
 class BusLog {
  public:
   /// `bus` must outlive this. Throws std::runtime_error where the file cannot be made.

@@ -203,7 +203,8 @@ int Run(const RunJob& job) {
   Recorder recorder(bus.get(), channels);
   std::unique_ptr<BusLog> bus_log;
   if (!job.record.empty())
-    bus_log = std::make_unique<BusLog>(bus.get(), job.record, std::vector<std::string>{channels.keyframe, channels.window_state});
+    bus_log = std::make_unique<BusLog>(bus.get(), job.record,
+                                       std::vector<std::string>{channels.keyframe, channels.window_state});
   std::unique_ptr<LatencyProbe> latency;
   if (!job.lossless && job.speed == 1 && job.loops == 1)
     latency = std::make_unique<LatencyProbe>(bus.get(), channels);
