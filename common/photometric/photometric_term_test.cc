@@ -34,7 +34,11 @@ struct Frame {
     scene.camera = camera;
     scene.events = &events;
     scene.level = level;
-    scene.points = FindGradientPoints(view, level, 1, 0.02, 3000);
+    const SE3 T = (pose * test::BodyCamera()).Inverse();
+    for (const GradientPoint& g : FindGradientPoints(view, level, 1, 0.02, 3000)) {
+      Eigen::Vector2d pixel;  // as the tracker does: a point that leaves the image is no smooth affair
+      if (camera.Project(T * g.point, &pixel) && camera.Contains(pixel, 20)) scene.points.push_back(g);
+    }
     scene.origin = pose.p;
     scene.event_norm = 0.3;
     scene.weight = 0.1;

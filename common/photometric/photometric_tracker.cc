@@ -73,7 +73,7 @@ TrackerOutput PhotometricTracker::Process(const PhotometricFrame& frame) {
             Text("the map does not foretell the events (correlation %.2f)", solution.quality.correlation),
             &out);
     } else {
-      Accept(frame, after_events, dt, solution, &out);
+      Accept(frame, after_events, solution, &out);
     }
   }
   last_interval_ = state_time_ != 0 ? std::max<Utime>(0, frame.t - state_time_) : 0;
@@ -83,9 +83,8 @@ TrackerOutput PhotometricTracker::Process(const PhotometricFrame& frame) {
   return out;
 }
 
-void PhotometricTracker::Accept(const PhotometricFrame& frame, double after_events, double dt,
-                                const Solution& solution, TrackerOutput* out) {
-  const SE3 before = state_.T_world_body;
+void PhotometricTracker::Accept(const PhotometricFrame& frame, double after_events, const Solution& solution,
+                                TrackerOutput* out) {
   state_.velocity = solution.twist.head<3>() +
                     Eigen::Vector3d(solution.twist.tail<3>()).cross(solution.pose.p - solution.origin);
   rate_ = solution.twist.tail<3>();
@@ -94,7 +93,6 @@ void PhotometricTracker::Accept(const PhotometricFrame& frame, double after_even
   good_time_ = frame.t;
   mode_ = TrackerMode::kTracking;
   reason_ = "tracking (photometric)";
-  (void)before, (void)dt;
   out->has_pose = true;
   out->image_speed = image_speed_;
   out->information.topLeftCorner<6, 6>() = solution.information;

@@ -24,7 +24,7 @@ struct PhotometricFrame {
 /// of a photometric map, its depth and the camera's motion, against the events counted; over pose and
 /// velocity, frame by frame. Nothing of the IMU is used. Ours, beyond it: a map rendered at the prediction
 /// rather than key poses, coarse to fine, a robust kernel, and the speed, which two normalised images leave
-/// open, from the poses of successive frames.
+/// open, from the contrast threshold and the velocity before.
 class PhotometricTracker {
  public:
   /// `config` has its photometric part. `T_map_body`: pose at the first frame, to some centimetres and
@@ -59,7 +59,7 @@ class PhotometricTracker {
   Solution Solve(const PhotometricFrame& frame, const SE3& expected) const;
   void MinimizeAt(const PhotometricScene& scene, const SE3& expected, const Twist& prior,
                   Solution* solution) const;
-  void Accept(const PhotometricFrame& frame, double after_events, double dt, const Solution& solution,
+  void Accept(const PhotometricFrame& frame, double after_events, const Solution& solution,
               TrackerOutput* out);
   void Coast(const PhotometricFrame& frame, const SE3& predicted, const std::string& why, TrackerOutput* out);
 
