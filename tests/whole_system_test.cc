@@ -230,7 +230,7 @@ TEST_F(WholeSystemTest, BadInputIsNamedAndNothingIsLeftBehind) {
       {with("out", "/proc/nowhere"), "/proc/nowhere"},
       {kEvit + " import vector " + kLogs + " --sequence nothing --out " + Path("x.lcmlog"),
        "sequences found there"},
-      {kEvit + " run --log x", "--map is required"},
+      {kEvit + " run --log x", "--rig is required"},
   };
   for (const auto& c : cases) {
     const Result result = Shell(c.command);

@@ -21,10 +21,12 @@ struct Channels {
         replay_control(prefix + "REPLAY_CONTROL"),
         credit(prefix + "CREDIT"),
         stream_end(prefix + "STREAM_END"),
-        pose_hint(prefix + "POSE_HINT") {}
+        pose_hint(prefix + "POSE_HINT"),
+        view_query(prefix + "VIEW_QUERY"),
+        map_view(prefix + "MAP_VIEW") {}
 
   std::string events, imu, ground_truth, keyframe, map_query, map_points, window_state, body_pose,
-      tracker_mode, status, replay_control, credit, stream_end, pose_hint;
+      tracker_mode, status, replay_control, credit, stream_end, pose_hint, view_query, map_view;
 };
 
 }  // namespace evit

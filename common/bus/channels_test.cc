@@ -93,7 +93,7 @@ TEST(Channels, ThePrefixGoesInFrontOfEachName) {
     return std::vector<std::string>{c.events,       c.imu,        c.ground_truth,   c.keyframe,
                                     c.map_query,    c.map_points, c.window_state,   c.body_pose,
                                     c.tracker_mode, c.status,     c.replay_control, c.credit,
-                                    c.stream_end,   c.pose_hint};
+                                    c.stream_end,   c.pose_hint,  c.view_query,     c.map_view};
   };
   const std::vector<std::string> names = all(plain), with_prefix = all(prefixed);
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()), ChannelsOfHeader());

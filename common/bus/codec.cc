@@ -46,10 +46,12 @@ EVIT_INSTANTIATE(imu_batch_t)
 EVIT_INSTANTIATE(keyframe_t)
 EVIT_INSTANTIATE(map_points_t)
 EVIT_INSTANTIATE(map_query_t)
+EVIT_INSTANTIATE(map_view_t)
 EVIT_INSTANTIATE(replay_control_t)
 EVIT_INSTANTIATE(service_status_t)
 EVIT_INSTANTIATE(stream_end_t)
 EVIT_INSTANTIATE(tracker_mode_t)
+EVIT_INSTANTIATE(view_query_t)
 EVIT_INSTANTIATE(window_state_t)
 
 #undef EVIT_INSTANTIATE

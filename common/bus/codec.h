@@ -12,10 +12,12 @@
 #include "evit/keyframe_t.hpp"
 #include "evit/map_points_t.hpp"
 #include "evit/map_query_t.hpp"
+#include "evit/map_view_t.hpp"
 #include "evit/replay_control_t.hpp"
 #include "evit/service_status_t.hpp"
 #include "evit/stream_end_t.hpp"
 #include "evit/tracker_mode_t.hpp"
+#include "evit/view_query_t.hpp"
 #include "evit/window_state_t.hpp"
 
 /// Decoding that trusts nothing: lengths, fingerprint, every count (before memory is reserved) and, in

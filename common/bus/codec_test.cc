@@ -12,8 +12,8 @@ namespace evit {
 namespace {
 
 using Messages = ::testing::Types<body_pose_t, credit_t, event_packet_t, imu_batch_t, keyframe_t,
-                                  map_points_t, map_query_t, replay_control_t, service_status_t, stream_end_t,
-                                  tracker_mode_t, window_state_t>;
+                                  map_points_t, map_query_t, map_view_t, replay_control_t, service_status_t,
+                                  stream_end_t, tracker_mode_t, view_query_t, window_state_t>;
 template <typename Message>
 class CodecTest : public ::testing::Test {};
 TYPED_TEST_SUITE(CodecTest, Messages);

@@ -35,6 +35,9 @@ void VisitArrays(Message& m, const Visitor& visit) {
     visit("xyz", m.n, m.xyz);
     for (auto& row : m.xyz) visit("xyz[i]", 3, row);
     visit("id", m.n, m.id);
+  } else if constexpr (std::is_same_v<Type, map_view_t>) {
+    visit("log_intensity", m.size, m.log_intensity);
+    visit("inverse_depth", m.size, m.inverse_depth);
   } else if constexpr (std::is_same_v<Type, service_status_t>) {
     visit("counter_name", m.n_counters, m.counter_name);
     visit("counter_value", m.n_counters, m.counter_value);

@@ -80,6 +80,8 @@ inline keyframe_t Sample<keyframe_t>(int n) {
   m.lookahead_us = 40'000;
   m.width = n + 3;
   m.height = 4;
+  m.encoding = keyframe_t::EVENT_COUNT;
+  m.from_utime = m.utime - 2000;
   m.n_surfaces = 2;
   m.surface_size = m.width * m.height;
   m.surface.assign(2, std::vector<std::uint8_t>(static_cast<std::size_t>(m.surface_size), 200));
@@ -136,6 +138,23 @@ inline map_query_t Sample<map_query_t>(int /*n*/) {
 }
 
 template <>
+inline map_view_t Sample<map_view_t>(int n) {
+  map_view_t m{};
+  Stamp(&m);
+  m.query_seq = 4;
+  m.query_epoch = 99;
+  m.width = n + 2;
+  m.height = 3;
+  m.size = m.width * m.height;
+  m.min_depth = 0.1;
+  for (int i = 0; i < m.size; ++i) {
+    m.log_intensity.push_back(static_cast<std::int16_t>(-100 * i));
+    m.inverse_depth.push_back(static_cast<std::int16_t>(7000 * i));
+  }
+  return m;
+}
+
+template <>
 inline replay_control_t Sample<replay_control_t>(int /*n*/) {
   replay_control_t m{};
   Stamp(&m);
@@ -184,6 +203,22 @@ inline tracker_mode_t Sample<tracker_mode_t>(int /*n*/) {
   m.gyro_bias[2] = 0.006;
   m.image_speed = 120;
   m.keyframe_stride = 2;
+  return m;
+}
+
+template <>
+inline view_query_t Sample<view_query_t>(int /*n*/) {
+  view_query_t m{};
+  Stamp(&m);
+  SetPose(m.position, m.orientation);
+  m.camera.model = "plumb_bob";
+  m.camera.width = 320;
+  m.camera.height = 240;
+  m.camera.fx = m.camera.fy = 160;
+  m.camera.cx = 159.5;
+  m.camera.cy = 119.5;
+  m.min_depth = 0.1;
+  m.max_depth = 10;
   return m;
 }
 

@@ -99,6 +99,10 @@ bool Validate(const keyframe_t& m, std::string* why) {
       .That(m.lookahead_us >= 0 && m.lookahead_us <= kMaxTime, "lookahead_us is negative")
       .That(m.width > 0 && m.width <= kMaxImageSide, "width is out of range")
       .That(m.height > 0 && m.height <= kMaxImageSide, "height is out of range")
+      .That(m.encoding == keyframe_t::TIME_SURFACE || m.encoding == keyframe_t::EVENT_COUNT,
+            "encoding is unknown")
+      .Time("from_utime", m.from_utime)
+      .That(m.from_utime <= m.utime, "from_utime is after utime")
       .That(m.n_surfaces >= 1, "n_surfaces is 0")
       .That(std::int64_t{m.width} * m.height == m.surface_size, "surface_size is not width * height")
       .That(m.imu_gap_us >= 0, "imu_gap_us is negative")
@@ -136,6 +140,18 @@ bool Validate(const map_query_t& m, std::string* why) {
       .That(m.min_depth >= 0 && m.min_depth < m.max_depth, "min_depth..max_depth is no range")
       .That(m.occlusion == 0 || m.occlusion == 1, "occlusion is neither 0 nor 1")
       .That(m.max_points >= 0 && m.max_points <= kMaxMapPoints, "max_points is out of range")
+      .ok();
+}
+
+bool Validate(const map_view_t& m, std::string* why) {
+  return FieldChecks(why)
+      .Stamp(m)
+      .That(m.query_seq >= 0, "query_seq is negative")
+      .That(m.width > 0 && m.width <= kMaxImageSide, "width is out of range")
+      .That(m.height > 0 && m.height <= kMaxImageSide, "height is out of range")
+      .That(std::int64_t{m.width} * m.height == m.size, "size is not width * height")
+      .Finite("min_depth", m.min_depth)
+      .That(m.min_depth > 0, "min_depth is not positive")
       .ok();
 }
 
@@ -177,6 +193,20 @@ bool Validate(const tracker_mode_t& m, std::string* why) {
       .Finite("image_speed", m.image_speed)
       .That(m.image_speed >= 0, "image_speed is negative")
       .That(m.keyframe_stride >= 1 && m.keyframe_stride <= 100, "keyframe_stride is not 1..100")
+      .ok();
+}
+
+bool Validate(const view_query_t& m, std::string* why) {
+  FieldChecks check(why);
+  check.Stamp(m);
+  CheckPose(m, &check);
+  CheckCamera(m.camera, &check);
+  bool straight = true;
+  for (const double k : m.camera.distortion) straight = straight && k == 0;
+  return check.That(straight, "camera.distortion is not 0")
+      .Finite("min_depth", m.min_depth)
+      .Finite("max_depth", m.max_depth)
+      .That(m.min_depth > 0 && m.min_depth < m.max_depth, "min_depth..max_depth is no range")
       .ok();
 }
 

@@ -16,10 +16,12 @@ bool Validate(const imu_batch_t& m, std::string* why);
 bool Validate(const keyframe_t& m, std::string* why);
 bool Validate(const map_points_t& m, std::string* why);
 bool Validate(const map_query_t& m, std::string* why);
+bool Validate(const map_view_t& m, std::string* why);
 bool Validate(const replay_control_t& m, std::string* why);
 bool Validate(const service_status_t& m, std::string* why);
 bool Validate(const stream_end_t& m, std::string* why);
 bool Validate(const tracker_mode_t& m, std::string* why);
+bool Validate(const view_query_t& m, std::string* why);
 bool Validate(const window_state_t& m, std::string* why);
 
 }  // namespace evit

@@ -63,9 +63,23 @@ TEST(Validate, Keyframe) {
   ExpectRefused<keyframe_t>("imu_utime", [](auto* m) { m->imu_utime.back() = m->utime + 1; });
   ExpectRefused<keyframe_t>("imu_utime", [](auto* m) { m->imu_utime[1] = m->imu_utime[0]; });
   ExpectRefused<keyframe_t>("decay_us", [](auto* m) { m->decay_us = 0; });
+  ExpectRefused<keyframe_t>("encoding", [](auto* m) { m->encoding = 2; });
+  ExpectRefused<keyframe_t>("from_utime", [](auto* m) { m->from_utime = m->utime + 1; });
   ExpectRefused<keyframe_t>("imu.gamma", [](auto* m) { m->imu.gamma[0] = 2; });
   ExpectRefused<keyframe_t>("imu.covariance", [](auto* m) { m->imu.covariance[8][8] = kNaN; });
   ExpectRefused<keyframe_t>("imu.end_utime", [](auto* m) { m->imu.end_utime = m->imu.begin_utime - 1; });
+}
+
+TEST(Validate, PhotometricMap) {
+  ExpectRefused<map_view_t>("size", [](auto* m) { m->width += 1; });
+  ExpectRefused<map_view_t>("width", [](auto* m) { m->width = -m->width, m->height = -m->height; });
+  ExpectRefused<map_view_t>("min_depth", [](auto* m) { m->min_depth = 0; });
+  ExpectRefused<map_view_t>("query_seq", [](auto* m) { m->query_seq = -1; });
+  ExpectRefused<view_query_t>("distortion", [](auto* m) { m->camera.distortion[3] = 0.1; });
+  ExpectRefused<view_query_t>("position", [](auto* m) { m->position[0] = kNaN; });
+  ExpectRefused<view_query_t>("focal", [](auto* m) { m->camera.fy = 0; });
+  ExpectRefused<view_query_t>("min_depth", [](auto* m) { m->max_depth = m->min_depth; });
+  ExpectRefused<view_query_t>("min_depth", [](auto* m) { m->min_depth = 0; });
 }
 
 TEST(Validate, Map) {

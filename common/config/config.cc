@@ -1,49 +1,17 @@
 #include "common/config/config.h"
 
-#include <google/protobuf/io/tokenizer.h>
-#include <google/protobuf/io/zero_copy_stream_impl.h>
-#include <google/protobuf/text_format.h>
-
 #include <Eigen/LU>
 #include <cmath>
-#include <fstream>
-#include <sstream>
+
+#include "common/config/text_file.h"
 
 namespace evit {
 namespace {
 
-// Keeps the first complaint of the parser, with its place.
-class FirstError : public google::protobuf::io::ErrorCollector {
- public:
-  void AddError(int line, int column, const std::string& message) override {
-    if (!text_.empty()) return;
-    text_ = std::to_string(line + 1) + ":" + std::to_string(column + 1) + ": " + message;
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
-
 template <typename Message>
 Message Parse(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw ConfigError(path + ": cannot be read; give the path of a text protobuf file");
-  std::stringstream text;
-  text << file.rdbuf();
   Message message;
-  FirstError errors;
-  google::protobuf::TextFormat::Parser parser;
-  parser.RecordErrorsTo(&errors);
-  parser.AllowPartialMessage(true);  // missing keys are named below, all at once
-  if (!parser.ParseFromString(text.str(), &message)) {
-    throw ConfigError(path + ":" + errors.text() +
-                      "; known keys and their units are in common/config/*.proto");
-  }
-  if (!message.IsInitialized()) {
-    throw ConfigError(path + ": missing: " + message.InitializationErrorString() +
-                      "; every key must be there, see the commented files in config/");
-  }
+  ParseTextFile(path, "common/config/*.proto", &message);
   return message;
 }
 
@@ -121,6 +89,33 @@ Rig LoadRig(const std::string& path) {
 
 std::string LoadRigName(const std::string& path) { return Parse<config::Rig>(path).name(); }
 
+namespace {
+
+void CheckPhotometric(const config::Photometric& p, const std::string& path) {
+  const auto positive = [&](double v, const char* name) {
+    Require(v > 0 && std::isfinite(v), path, std::string("photometric.") + name + ": must be positive");
+  };
+  positive(p.contrast_threshold(), "contrast_threshold");
+  positive(p.min_gradient(), "min_gradient");
+  positive(p.robust_scale(), "robust_scale");
+  positive(p.max_iterations(), "max_iterations");
+  positive(p.sigma_position_m(), "sigma_position_m");
+  positive(p.sigma_rotation_rad(), "sigma_rotation_rad");
+  positive(p.sigma_velocity(), "sigma_velocity");
+  positive(p.sigma_rate(), "sigma_rate");
+  positive(p.max_bad_s(), "max_bad_s");
+  Require(p.view_margin() >= 0 && p.view_margin() <= 1, path, "photometric.view_margin: 0 to 1 is wanted");
+  Require(p.blur_sigma_px() >= 0 && p.blur_sigma_px() <= 10, path,
+          "photometric.blur_sigma_px: 0 to 10 pixels are wanted");
+  Require(p.levels() >= 1 && p.levels() <= 4, path, "photometric.levels: 1 to 4 are wanted");
+  Require(p.max_points() >= 100 && p.max_points() <= 100'000, path,
+          "photometric.max_points: 100 to 100000 are wanted");
+  Require(p.min_correlation() >= 0 && p.min_correlation() < 1, path,
+          "photometric.min_correlation: 0 to 1 is wanted");
+}
+
+}  // namespace
+
 config::Tracker LoadTracker(const std::string& path) {
   auto c = Parse<config::Tracker>(path);
   const auto positive = [&](double v, const char* name) {
@@ -172,6 +167,9 @@ config::Tracker LoadTracker(const std::string& path) {
   positive(c.failure().max_position_sigma_m(), "failure.max_position_sigma_m");
   positive(c.failure().max_speed(), "failure.max_speed");
   positive(c.failure().max_imu_gap_ms(), "failure.max_imu_gap_ms");
+  Require(c.method() != config::Tracker::EVPT || c.has_photometric(), path,
+          "photometric: method EVPT wants it, see config/evpt.textproto");
+  if (c.has_photometric()) CheckPhotometric(c.photometric(), path);
   return c;
 }
 

@@ -29,6 +29,7 @@ class Stopwatch {
 KeyframeBuilder::KeyframeBuilder(const Rig& rig, const config::Tracker& config, bool lossless)
     : rig_(rig),
       lossless_(lossless),
+      photometric_(config.method() == config::Tracker::EVPT),
       lookahead_(config.surface().kind() == config::Surface::SYMMETRIC
                      ? std::llround(config.surface().lookahead_ms() * 1e3)
                      : 0),
@@ -37,7 +38,8 @@ KeyframeBuilder::KeyframeBuilder(const Rig& rig, const config::Tracker& config, 
       merger_(rig.camera.width, rig.camera.height, lossless, rig.camera_time_offset, rig.imu_noise),
       surface_(rig.camera.width, rig.camera.height),
       hot_pixels_(rig.camera.width, rig.camera.height, config.surface().hot_pixel_rate_hz()),
-      renderer_(rig.camera.width, rig.camera.height, config.surface()) {}
+      renderer_(rig.camera.width, rig.camera.height, config.surface()),
+      counter_(rig.camera.width, rig.camera.height) {}
 
 void KeyframeBuilder::AddEvents(const EventArray& events, Utime watermark) {
   if (!merger_.AddEvents(events, watermark)) Restart();
@@ -109,8 +111,9 @@ bool KeyframeBuilder::Decide() {
       awaited_ = next_seq_ - 2;
       return false;
     }
+    const TrackerFeedback::Mode mode = photometric_ ? TrackerFeedback::Mode::kTracking : feedback->mode;
     const auto due =
-        policy_.Due({feedback->mode, feedback->keyframe_stride, last_, sample.t, last_raw_.t,
+        policy_.Due({mode, feedback->keyframe_stride, last_, sample.t, last_raw_.t,
                      merger_.PositionAfter(sample.t) - last_position_, static_cast<int>(imu_.size())});
     if (due) {
       Push(*due, sample, *feedback);
@@ -152,7 +155,7 @@ void KeyframeBuilder::Push(Utime stamp, const ImuSample& sample, const TrackerFe
   k.utime = stamp;
   k.seq = next_seq_++;
   k.previous_utime = first_ ? stamp : last_;
-  k.high_rate = KeyframePolicy::IsHighRate(feedback.mode);
+  k.high_rate = !photometric_ && KeyframePolicy::IsHighRate(feedback.mode);
   pending.position = merger_.PositionAfter(stamp);
   k.n_events = pending.position - last_position_;
   k.decay_us = policy_.DecayUs(feedback.image_speed);
@@ -165,6 +168,13 @@ void KeyframeBuilder::Push(Utime stamp, const ImuSample& sample, const TrackerFe
   }
   // Later events than this would not show: the faster the motion, the shorter the wait.
   k.lookahead = std::min(lookahead_, static_cast<Utime>(VisibleUs(k.decay_us, truncation_)));
+  k.from_utime = k.utime;
+  if (photometric_) {
+    const Utime half = (k.utime - k.previous_utime) / 2;
+    k.event_count = true;
+    k.from_utime -= half;
+    k.lookahead = std::min(lookahead_, half);
+  }
   pending.bias = feedback.bias;
   pending_.push_back(std::move(pending));
 
@@ -186,21 +196,36 @@ void KeyframeBuilder::Apply(std::int64_t position) {
   merger_.Release(position);
 }
 
+// Before Apply() gives up the events up to its stamp.
+SurfaceRenderer::Image KeyframeBuilder::CountEvents(const Keyframe& k) {
+  const auto index = [&](Utime t) {
+    return merger_.IndexOf(std::max(merger_.first(), merger_.PositionAfter(t)));
+  };
+  return counter_.Count(merger_.events(), index(k.from_utime), index(k.utime + k.lookahead),
+                        hot_pixels_.pixels());
+}
+
 Keyframe KeyframeBuilder::Draw(Pending pending) {
   Keyframe k = std::move(pending.keyframe);
   Stopwatch watch;
+  if (k.event_count) {
+    k.surfaces.push_back(CountEvents(k));
+    k.render_ms = watch.Lap();
+  }
   Apply(pending.position);
   hot_pixels_.AdvanceTo(k.utime);
   k.update_ms = watch.Lap();
-  SurfaceRenderer::View view;
-  view.t = k.utime;
-  view.decay_us = k.decay_us;
-  view.after = &merger_.events();
-  view.begin = merger_.IndexOf(merger_.first());
-  view.end = merger_.IndexOf(merger_.PositionAfter(k.utime + k.lookahead));
-  view.ignored = &hot_pixels_.pixels();
-  k.surfaces = renderer_.Render(surface_, view);
-  k.render_ms = watch.Lap();
+  if (!k.event_count) {
+    SurfaceRenderer::View view;
+    view.t = k.utime;
+    view.decay_us = k.decay_us;
+    view.after = &merger_.events();
+    view.begin = merger_.IndexOf(merger_.first());
+    view.end = merger_.IndexOf(merger_.PositionAfter(k.utime + k.lookahead));
+    view.ignored = &hot_pixels_.pixels();
+    k.surfaces = renderer_.Render(surface_, view);
+    k.render_ms = watch.Lap();
+  }
   if (k.imu.size() >= 2) k.preintegration = Preintegration(k.imu, pending.bias, rig_.imu_noise);
   k.preintegrate_ms = watch.Lap();
   return k;

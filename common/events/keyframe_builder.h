@@ -7,6 +7,7 @@
 
 #include "common/config/tracker.pb.h"
 #include "common/events/active_event_surface.h"
+#include "common/events/event_counter.h"
 #include "common/events/hot_pixels.h"
 #include "common/events/keyframe_policy.h"
 #include "common/events/stream_merger.h"
@@ -24,7 +25,9 @@ struct Keyframe {
   bool high_rate = false;
   std::int64_t n_events = 0;
   double decay_us = 0;
-  Utime lookahead = 0;  // us: events up to utime + this count
+  Utime lookahead = 0;       // us: events up to utime + this count
+  bool event_count = false;  // the surface holds signed counts (EventCounter), of the events after from_utime
+  Utime from_utime = 0;
   int width = 0, height = 0;
   std::vector<SurfaceRenderer::Image> surfaces;
   std::vector<ImuSample> imu;  // from previous_utime to utime, both interpolated where needed; empty if first
@@ -43,6 +46,9 @@ struct Keyframe {
 /// are cut or interleaved: keyframe k is made with the feedback of keyframe k-2 (k < 2: defaults), and waits
 /// for it. Real time: the newest feedback counts, and an IMU 50 ms ahead of the events does not wait for
 /// them.
+///
+/// EVPT: signed event counts in place of time surfaces, over half of the interval before and as long after
+/// the stamp, and adaptive keyframes whatever the tracker's mode.
 class KeyframeBuilder {
  public:
   KeyframeBuilder(const Rig& rig, const config::Tracker& config, bool lossless);
@@ -79,6 +85,7 @@ class KeyframeBuilder {
   void Take(const ImuSample& sample);
   void Push(Utime stamp, const ImuSample& sample, const TrackerFeedback& feedback);
   Keyframe Draw(Pending pending);
+  SurfaceRenderer::Image CountEvents(const Keyframe& keyframe);
   void Apply(std::int64_t position);
   void LimitMemory();
   const TrackerFeedback* FeedbackForNext() const;
@@ -86,6 +93,7 @@ class KeyframeBuilder {
 
   Rig rig_;
   bool lossless_;
+  bool photometric_;
   Utime lookahead_;  // at most
   double truncation_;
   KeyframePolicy policy_;
@@ -93,6 +101,7 @@ class KeyframeBuilder {
   ActiveEventSurface surface_;
   HotPixels hot_pixels_;
   SurfaceRenderer renderer_;
+  EventCounter counter_;
 
   std::deque<Pending> pending_;
   std::int64_t next_seq_ = 0, awaited_ = -1;

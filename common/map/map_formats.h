@@ -12,7 +12,9 @@ namespace evit {
 
 /// `format` becomes e.g. "PCD ascii".
 void ReadPcd(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std::string* format);
-void ReadPly(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std::string* format);
+/// `intensities`: where not null, gets the vertices' "intensity" (0..1), and is empty where there is none.
+void ReadPly(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std::string* format,
+             std::vector<float>* intensities = nullptr);
 void ReadXyz(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std::string* format);
 
 /// Decompresses LZF (Marc Lehmann's format, as PCD's binary_compressed uses it). False where the data is

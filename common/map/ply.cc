@@ -115,7 +115,8 @@ class Numbers {
 
 }  // namespace
 
-void ReadPly(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std::string* format) {
+void ReadPly(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std::string* format,
+             std::vector<float>* intensities) {
   std::vector<Element> elements;
   std::string encoding;
   std::size_t at = 0;
@@ -172,6 +173,8 @@ void ReadPly(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std
           if (!property.list && property.name.size() == 1 && property.name[0] >= 'x' &&
               property.name[0] <= 'z') {
             p[property.name[0] - 'x'] = value;
+          } else if (vertex && intensities != nullptr && !property.list && property.name == "intensity") {
+            intensities->push_back(value);
           }
         }
       }

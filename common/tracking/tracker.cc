@@ -49,6 +49,8 @@ Tracker::Tracker(const Rig& rig, const config::Tracker& config, const SE3& T_map
 void Tracker::StartFrom(const BodyState& state) {
   state_ = state;
   anchor_ = state.T_world_body;
+  anchor_velocity_ = state.velocity;
+  reckoned_ = 0;
   reason_ = "going on from a checkpoint";
 }
 
@@ -73,9 +75,10 @@ void Tracker::SetMode(TrackerMode mode, std::string reason) {
   reason_ = std::move(reason);
 }
 
-void Tracker::Restart(const SE3& T_map_body, std::string reason) {
+void Tracker::Restart(const SE3& T_map_body, const Eigen::Vector3d& velocity, std::string reason) {
   state_.T_world_body = anchor_ = T_map_body;
-  state_.velocity.setZero();
+  state_.velocity = anchor_velocity_ = velocity;
+  reckoned_ = 0;
   frames_.clear();
   bad_frames_ = 0;
   SetMode(TrackerMode::kBootstrapping, std::move(reason));
@@ -198,13 +201,18 @@ bool Tracker::Follows(const KeyframeInput& keyframe) {
   if (usable && gap_ms <= config_.failure().max_imu_gap_ms()) return true;
   SE3 pose = state_.T_world_body;
   if (keyframe.t <= state_time_) {
-    Restart(pose, Text("the clock went back by %.0f ms: starting anew from the last pose", -gap_ms));
+    Restart(pose, Eigen::Vector3d::Zero(),
+            Text("the clock went back by %.0f ms: starting anew from the last pose", -gap_ms));
     return false;
   }
   const Utime unseen = keyframe.t - state_time_;
-  if (mode_ == TrackerMode::kTracking && unseen <= kLongestGuess)
-    pose.p += ToSeconds(unseen) * state_.velocity;
-  Restart(pose, Text("IMU gap of %.0f ms: starting anew from the predicted pose", gap_ms));
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  if (mode_ == TrackerMode::kTracking && unseen <= kLongestGuess) {
+    velocity = state_.velocity;
+    pose.p += ToSeconds(unseen) * velocity;
+    pose.q = (pose.q * ExpSO3(ToSeconds(unseen) * rate_)).normalized();
+  }
+  Restart(pose, velocity, Text("IMU gap of %.0f ms: starting anew from the predicted pose", gap_ms));
   return false;
 }
 

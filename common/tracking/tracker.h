@@ -56,7 +56,10 @@ class Tracker {
   void StartFrom(const BodyState& state);
 
   /// Whatever it was doing: the body is here, to some centimetres and degrees.
-  void StartAnew(const SE3& T_map_body) { Restart(T_map_body, "starting anew from a pose hint"); }
+  void StartAnew(const SE3& T_map_body) {
+    Restart(T_map_body, Eigen::Vector3d::Zero(), "starting anew from a pose hint");
+    reckoned_ = kNoReckoning;
+  }
   /// Goes on tracking where another tracker was after its keyframe of time `t`, as if it were that one:
   /// `information` is TrackerOutput's. The next keyframe must follow that one.
   void Resume(Utime t, const BodyState& state, const Matrix15d& information);
@@ -85,7 +88,8 @@ class Tracker {
   const Eigen::Vector3d& rate() const { return rate_; }
 
  private:
-  static constexpr std::size_t kMinPoints = 30;  // fewer say nothing about six unknowns
+  static constexpr Utime kNoReckoning = kMicrosPerSecond * 3600;  // velocity unknown: the anchor stays
+  static constexpr std::size_t kMinPoints = 30;                   // fewer say nothing about six unknowns
 
   void ProcessBootstrap(const KeyframeInput& keyframe, bool follows, TrackerOutput* out);
   void ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out);
@@ -93,7 +97,8 @@ class Tracker {
   std::string Trouble(const KeyframeInput& keyframe, bool usable, const std::string& coasting,
                       const TrackerOutput& out);
   bool Follows(const KeyframeInput& keyframe);
-  SE3 Guess() const;
+  SE3 Guess(const SurfaceField& field, std::int64_t seq) const;
+  void MoveAnchor(const std::vector<ImuSample>& samples);
   void Refuse(std::size_t n_points);
   Eigen::Vector3d RecentVelocity() const;
   bool ReadyToBootstrap() const;
@@ -103,7 +108,7 @@ class Tracker {
   VisibilityQuery QueryFrom(const SE3& T_map_body) const;
   static bool Aligned(const AlignmentQuality& quality, double min_contrast);
   void SetMode(TrackerMode mode, std::string reason);
-  void Restart(const SE3& T_map_body, std::string reason);
+  void Restart(const SE3& T_map_body, const Eigen::Vector3d& velocity, std::string reason);
   void Finish(const AlignmentPoints& points, TrackerOutput* out) const;
 
   Rig rig_;
@@ -114,12 +119,15 @@ class Tracker {
   TrackerMode mode_ = TrackerMode::kBootstrapping;
   std::string reason_ = "waiting for the first keyframe";
   BodyState state_;
-  SE3 anchor_;  // where bootstrapping looks for the map
+  SE3 anchor_;                                                 // where bootstrapping looks for the map
+  Eigen::Vector3d anchor_velocity_ = Eigen::Vector3d::Zero();  // m/s, map frame
+  Utime reckoned_ = kNoReckoning;  // us: so long the anchor has been moved by the IMU alone
   Utime state_time_ = 0;
   Utime last_interval_ = 0;
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s: newest gyro reading less its bias
   int bad_frames_ = 0;                              // high-rate frames in a row that did not fit
   Utime aligned_at_ = 0;                            // newest keyframe whose events the map lay on
+  Eigen::Matrix<double, 6, 6> common_ = Eigen::Matrix<double, 6, 6>::Zero();  // CommonCovariance of the newest aligned keyframe
   double point_share_ = 1;
 
   struct LocalizedFrame {  // high-rate frame kept until the window takes over

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "common/imu/preintegration.h"
+#include "common/tracking/place_search.h"
 #include "common/tracking/tracker.h"
 
 namespace evit {
@@ -15,21 +17,13 @@ constexpr StartSigma kStartSigma{0.1, 0.09};     // a start pose typed in by han
 constexpr StartSigma kFollowSigma{0.01, 0.006};  // constant velocity and gyro over some 10 ms
 constexpr std::size_t kSureFrames = 3;
 constexpr int kAnchorOnly = 5;       // frames, before places around the anchor are tried
+constexpr int kPlaces = 96;          // of them for each frame
+constexpr int kPlacePoints = 320;    // that they are compared by
 constexpr double kNarrowest = 0.1;   // m: radius of the ball they lie in
 constexpr double kWidest = 1;        // m
 constexpr double kWidening = 0.004;  // m per frame, of some 10 ms
 constexpr std::size_t kMaxFrames = 300;
 constexpr int kPatience = 100;  // frames that do not fit before the start counts as failed
-
-// Van der Corput's sequence: fills (0, 1) evenly, however far one goes.
-double Halton(int k, int base) {
-  double value = 0, digit = 1;
-  for (; k > 0; k /= base) {
-    digit /= base;
-    value += digit * (k % base);
-  }
-  return value;
-}
 
 // What the window may believe of its first state: the accuracy of an event-only pose and of the alignment.
 StatePrior FirstPrior(const BodyState& state) {
@@ -52,10 +46,10 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, bool follows, Trac
   std::shared_ptr<Preintegration> imu;
   if (follows) {
     imu = std::make_shared<Preintegration>(keyframe.imu, state_.bias, rig_.imu_noise);
-    anchor_.q = (anchor_.q * imu->delta().gamma).normalized();
+    MoveAnchor(keyframe.imu);
   }
   const bool following = !frames_.empty() && imu != nullptr;
-  SE3 predicted = Guess();
+  SE3 predicted = following ? anchor_ : Guess(*field, keyframe.seq);
   if (following) {
     predicted.q = (state_.T_world_body.q * imu->delta().gamma).normalized();
     predicted.p = state_.T_world_body.p + imu->dt() * state_.velocity;
@@ -89,6 +83,8 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, bool follows, Trac
   if (frames_.size() < kSureFrames) return;
   bad_frames_ = 0;
   anchor_ = fit.T_world_body;
+  anchor_velocity_ = state_.velocity;
+  reckoned_ = 0;
   if (mode_ == TrackerMode::kLost) SetMode(TrackerMode::kBootstrapping, "found the map again");
   reason_ = "localising high-rate frames";
   if (ReadyToBootstrap() && TryBootstrap()) {
@@ -99,25 +95,35 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, bool follows, Trac
   Finish(points, out);
 }
 
-// Where to look for the map next: at the anchor, and when that does not help also anywhere in a ball around
-// it that grows as fast as a body may move, each frame elsewhere. (The gyro keeps the anchor's rotation true
-// meanwhile.)
-SE3 Tracker::Guess() const {
-  SE3 guess = anchor_;
-  if (bad_frames_ <= kAnchorOnly || bad_frames_ % 2 == 0) return guess;
+// The anchor goes where the IMU says that the body goes: for a while all of it, then its rotation alone.
+void Tracker::MoveAnchor(const std::vector<ImuSample>& samples) {
+  constexpr Utime kLongest = 1'500'000;  // us: by then the position may be decimetres off
+  const NavState moved = PropagateImu({anchor_, anchor_velocity_}, samples, state_.bias, rig_.gravity);
+  anchor_.q = moved.T_world_body.q;
+  if (reckoned_ >= kLongest) {
+    anchor_velocity_.setZero();
+    return;
+  }
+  anchor_.p = moved.T_world_body.p;
+  anchor_velocity_ = moved.velocity;
+  reckoned_ += samples.back().t - samples.front().t;
+}
+
+// Where to look for the map next: at the anchor, and when that does not help where the map lies best of many
+// places in a ball around it that grows as fast as a body may move, each frame others.
+SE3 Tracker::Guess(const SurfaceField& field, std::int64_t seq) const {
+  if (bad_frames_ <= kAnchorOnly) return anchor_;
+  BodyState here = state_;
+  here.T_world_body = anchor_;
   const double radius = std::min(kWidest, kNarrowest + kWidening * bad_frames_);
-  const Eigen::Vector3d cube(2 * Halton(bad_frames_, 2) - 1, 2 * Halton(bad_frames_, 3) - 1,
-                             2 * Halton(bad_frames_, 5) - 1);
-  // From the cube onto the ball, so that no sample is thrown away.
-  const double edge = cube.cwiseAbs().maxCoeff();
-  if (edge > 0) guess.p += radius * edge * cube.normalized();
-  return guess;
+  return BestPlace(alignment_, field, SamplePoints(here, kPlacePoints, seq), anchor_, radius,
+                   1 + kPlaces * bad_frames_, kPlaces);
 }
 
 void Tracker::Refuse(std::size_t n_points) {
   frames_.clear();  // the chain must have no holes
   state_.T_world_body = anchor_;
-  state_.velocity.setZero();
+  state_.velocity = anchor_velocity_;
   ++bad_frames_;
   if (mode_ == TrackerMode::kLost) return;
   if (bad_frames_ <= kPatience) {

@@ -1,5 +1,6 @@
 // EVT, the paper's event-only baseline (Sec. IV): each frame is localised by its events alone, from the
 // previous pose. Nothing of the IMU is used.
+#include <cmath>
 #include <utility>
 
 #include "common/tracking/text.h"
@@ -45,6 +46,7 @@ void Tracker::ProcessEventOnly(const KeyframeInput& keyframe, TrackerOutput* out
         EvaluateAlignment(alignment_, field, 0, points, fit.T_world_body, true).hessian;
     out->information.bottomRightCorner<9, 9>().setIdentity();
     out->covariance = PoseCovariance(out->information);
+    out->covariance.diagonal().head<3>().array() += std::pow(config_.window().map_sigma_m(), 2);
     out->nodes.push_back({keyframe.t, keyframe.seq, state_});
     Finish(points, out);
   }

@@ -142,6 +142,31 @@ TEST(Tracker, SaysLostWhenTheWorldIsNotTheMap) {
   EXPECT_NE(out.reason, "");
 }
 
+TEST(Tracker, FindsTheMapAgainWhileTheBodyMoves) {
+  const Motion motion{0.4, 0.3};
+  config::Tracker config = Config();
+  config.mutable_failure()->set_max_coast_s(0.2);
+  Bench bench(config, motion.State(1.0).T_world_body);
+  bench.motion = motion;
+  Utime t = 1'000'000;
+  TrackerOutput out;
+  while (out.mode != TrackerMode::kTracking && t < 3'000'000) out = bench.Step(t += 10'000, bench.room);
+  ASSERT_EQ(out.mode, TrackerMode::kTracking);
+  for (int k = 0; k < 20; ++k) out = bench.Step(t += 25'000, bench.room);
+  const auto other = synthetic::RoomPoints(60, 99);
+  const Eigen::Vector3d before = motion.State(ToSeconds(t)).T_world_body.p;
+  const Utime begin = t;
+  while (t < begin + 900'000)
+    out = bench.Step(t += out.mode == TrackerMode::kTracking ? 25'000 : 10'000, other);
+  ASSERT_EQ(out.mode, TrackerMode::kLost);
+  ASSERT_GT((motion.State(ToSeconds(t)).T_world_body.p - before).norm(),
+            0.3);  // far beyond what a single start finds
+  for (int k = 0; k < 60 && out.mode != TrackerMode::kTracking; ++k)
+    out = bench.Step(t += 10'000, bench.room);
+  ASSERT_EQ(out.mode, TrackerMode::kTracking) << out.reason;
+  EXPECT_LT((out.nodes.back().state.T_world_body.p - motion.State(ToSeconds(t)).T_world_body.p).norm(), 0.02);
+}
+
 TEST(Tracker, CoastsOnTheImuWhileThereAreNoEvents) {
   const Motion motion;
   config::Tracker config = Config();

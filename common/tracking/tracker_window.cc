@@ -41,11 +41,19 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
   const WindowNode& newest = window_.nodes().back();
   state_ = newest.state;
   out->information = window_.NewestInformation();
-  out->covariance = PoseCovariance(out->information);
+  if (coasting.empty()) {
+    common_ = CommonCovariance(newest.alignment, config_.window().correlated_share(), config_.window().map_sigma_m());
+  }
+  out->covariance = PoseCovariance(out->information) + common_;
 
   const std::string trouble = Trouble(keyframe, summary.usable, coasting, *out);
   if (!trouble.empty()) {
-    Restart(state_.T_world_body, "");
+    const bool sane = state_.velocity.norm() <= config_.failure().max_speed() &&
+                      state_.bias.gyro.norm() <= config_.failure().max_gyro_bias() &&
+                      state_.bias.accel.norm() <= config_.failure().max_accel_bias();
+    if (!sane) state_.bias = {};
+    Restart(state_.T_world_body, sane ? state_.velocity : Eigen::Vector3d::Zero(), "");
+    if (!sane) reckoned_ = kNoReckoning;
     SetMode(TrackerMode::kLost, trouble);
     return;
   }

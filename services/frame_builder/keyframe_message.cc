@@ -43,6 +43,8 @@ keyframe_t ToMessage(Keyframe k) {
   m.lookahead_us = k.lookahead;
   m.width = k.width;
   m.height = k.height;
+  m.encoding = k.event_count ? keyframe_t::EVENT_COUNT : keyframe_t::TIME_SURFACE;
+  m.from_utime = k.from_utime;
   m.n_surfaces = static_cast<std::int32_t>(k.surfaces.size());
   m.surface_size = k.width * k.height;
   m.imu = ToMessage(k.preintegration, k);

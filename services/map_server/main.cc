@@ -1,32 +1,67 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <optional>
+#include <stdexcept>
 
+#include "common/map/denoise.h"
 #include "common/map/map_file.h"
 #include "services/map_server/map_server.h"
 
 namespace {
 
+std::string Describe(const evit::LoadedMap& loaded, const evit::MapSummary& summary,
+                     const evit::DenoiseSummary& denoised) {
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "%zu points (%s), %.1f x %.1f x %.1f m, spacing %.3f m; denoised: %zu moved, %zu left out",
+                summary.n_points, loaded.format.c_str(), summary.max.x() - summary.min.x(),
+                summary.max.y() - summary.min.y(), summary.max.z() - summary.min.z(), summary.median_spacing,
+                denoised.n_moved, denoised.n_dropped);
+  return text;
+}
+
 int Main(int argc, char** argv) {
-  CLI::App app{"Serves the points of a semi-dense map that a camera sees (LCM service)."};
-  std::string path;
+  CLI::App app{
+      "Serves what a camera sees of a map: points of a semi-dense one, views of a photometric one "
+      "(LCM service)."};
+  std::string path, photometric_path;
+  evit::DenoiseSettings denoise;
   evit::ServiceOptions options;
-  app.add_option("--map", path, "Point cloud: PCD, PLY or text, metres, z up")->required();
+  app.add_option("--map", path, "Point cloud: PCD, PLY or text, metres, z up");
+  app.add_option("--photometric-map", photometric_path,
+                 "PLY with intensities (evit map photometric), for EVPT");
+  app.add_option("--denoise-radius", denoise.radius,
+                 "Points move onto the line through their neighbours within this, m; 0: as read")
+      ->check(CLI::Range(0.0, 0.2))
+      ->capture_default_str();
   evit::AddServiceOptions(&app, &options, false);
   try {
     app.parse(argc, argv);
+    if (path.empty() && photometric_path.empty()) {
+      throw CLI::RequiredError("--map or --photometric-map");
+    }
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
   }
-  evit::LoadedMap loaded = evit::LoadMap(path);
-  const evit::MapSummary summary = evit::Summarize(loaded.map);
-  evit::RequireMetres(summary, path);
-  char text[200];
-  std::snprintf(text, sizeof text, "%zu points (%s), %.1f x %.1f x %.1f m, spacing %.3f m", summary.n_points,
-                loaded.format.c_str(), summary.max.x() - summary.min.x(), summary.max.y() - summary.min.y(),
-                summary.max.z() - summary.min.z(), summary.median_spacing);
+  evit::LoadedMap loaded;
+  std::string description;
+  if (!path.empty()) {
+    loaded = evit::LoadMap(path);
+    const evit::MapSummary summary = evit::Summarize(loaded.map);
+    evit::RequireMetres(summary, path);
+    description = Describe(loaded, summary, evit::Denoise(denoise, &loaded.map));
+  }
+  std::optional<evit::PhotometricMap> photometric;
+  if (!photometric_path.empty()) {
+    photometric = evit::LoadPhotometricMap(photometric_path);
+    description += (description.empty() ? "" : "; ") + std::to_string(photometric->points.size()) +
+                   " photometric points";
+  }
   const auto bus = evit::OpenServiceBus(options);
   evit::MapServer service(bus.get(), evit::Channels(options.prefix), evit::MapIndex(std::move(loaded.map)),
-                          text);
+                          description);
+  if (photometric) service.ServeViews(*photometric);
+  photometric.reset();
   return evit::RunService(&service, bus.get());
 }
 

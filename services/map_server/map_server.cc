@@ -69,6 +69,7 @@ void MapServer::OnQuery(const std::uint8_t* data, std::size_t size) {
 
 void MapServer::Tick() {
   for (; !queue_.empty(); queue_.pop_front()) Answer(queue_.front());
+  if (views_) views_->Tick();
   status_.Tick();
 }
 

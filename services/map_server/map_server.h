@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "common/service/sequence_counter.h"
 #include "common/service/status_reporter.h"
 #include "evit/map_query_t.hpp"
+#include "services/map_server/view_server.h"
 
 namespace evit {
 
@@ -21,6 +23,9 @@ class MapServer : public Service {
  public:
   /// `bus` must outlive this. `description`: what STATUS says of the map.
   MapServer(Bus* bus, const Channels& channels, MapIndex index, const std::string& description);
+
+  /// Draws views of this map too: VIEW_QUERY in, MAP_VIEW out.
+  void ServeViews(const PhotometricMap& map) { views_.emplace(bus_, channels_, &status_, map); }
 
   /// Answers what has come in since the last call, in order; of a flood the newest queries only.
   void Tick() override;
@@ -39,6 +44,7 @@ class MapServer : public Service {
   std::deque<map_query_t> queue_;
   std::int64_t seq_ = 0;
   std::vector<std::uint8_t> buffer_;
+  std::optional<ViewServer> views_;
 };
 
 }  // namespace evit

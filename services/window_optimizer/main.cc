@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "common/config/config.h"
+#include "services/window_optimizer/photometric_optimizer.h"
 #include "services/window_optimizer/window_optimizer.h"
 
 namespace {
@@ -40,6 +41,12 @@ int Main(int argc, char** argv) {
   const evit::WindowOptimizer::Settings settings{evit::LoadRig(rig), evit::LoadTracker(config),
                                                  ParsePose(pose), options.lossless, checkpoint};
   const auto bus = evit::OpenServiceBus(options);
+  if (settings.tracker.method() == evit::config::Tracker::EVPT) {
+    evit::PhotometricOptimizer service(
+        bus.get(), evit::Channels(options.prefix),
+        {settings.rig, settings.tracker, settings.T_map_body, options.lossless});
+    return evit::RunService(&service, bus.get());
+  }
   evit::WindowOptimizer service(bus.get(), evit::Channels(options.prefix), settings);
   return evit::RunService(&service, bus.get());
 }

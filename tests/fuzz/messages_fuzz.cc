@@ -43,7 +43,9 @@ constexpr Function kTypes[] = {&Try<evit::body_pose_t>,
                                &TryProcman<procman_lcm::orders_t>,
                                &TryProcman<procman_lcm::deputy_info_t>,
                                &TryProcman<procman_lcm::output_t>,
-                               &TryProcman<procman_lcm::discovery_t>};
+                               &TryProcman<procman_lcm::discovery_t>,
+                               &Try<evit::map_view_t>,
+                               &Try<evit::view_query_t>};
 
 }  // namespace
 

@@ -10,9 +10,12 @@ namespace evit {
 
 void AddImportCommand(CLI::App* app);
 void AddMapCommand(CLI::App* app);
+/// photometric, a subcommand of map.
+void AddMapPhotometric(CLI::App* map);
 void AddEvalCommand(CLI::App* app);
 void AddCalibrateCommand(CLI::App* app);
 void AddRunCommand(CLI::App* app);
+void AddPaperCommand(CLI::App* app);
 void AddUpCommand(CLI::App* app);
 /// ps, start, stop, restart, logs.
 void AddProcmanCommands(CLI::App* app);

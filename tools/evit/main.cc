@@ -32,6 +32,7 @@ int Main(int argc, char** argv) {
   evit::AddRunCommand(&app);
   evit::AddEvalCommand(&app);
   evit::AddCalibrateCommand(&app);
+  evit::AddPaperCommand(&app);
   evit::AddUpCommand(&app);
   evit::AddProcmanCommands(&app);
   try {

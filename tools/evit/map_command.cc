@@ -82,6 +82,8 @@ void AddMapCommand(CLI::App* app) {
     PrintSummary(o->out, loaded, false);
   });
 
+  AddMapPhotometric(map);
+
   CLI::App* info = map->add_subcommand("info", "Points, bounds and spacing of a point cloud");
   info->add_option("FILE", o->in, "Point cloud to read")->required();
   info->add_flag("--json", o->json, "Machine-readable output");

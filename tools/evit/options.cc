@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -42,6 +43,16 @@ SE3 ParsePose(const std::string& option, const std::string& text) {
                              "\": seven numbers are wanted, x y z (m) and a unit quaternion qx qy qz qw");
   }
   return {Eigen::Quaterniond(v[6], v[3], v[4], v[5]).normalized(), {v[0], v[1], v[2]}};
+}
+
+std::string CommandLineOfThis() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::string line;
+  for (std::string word; std::getline(file, word, '\0');) {
+    const bool plain = !word.empty() && word.find_first_of(" \t\n\"'$*?;&|<>()\\") == std::string::npos;
+    line += (line.empty() ? "" : " ") + (plain ? word : "\"" + word + "\"");
+  }
+  return line;
 }
 
 std::string ConfigFile(const std::string& name) {

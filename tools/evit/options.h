@@ -17,6 +17,9 @@ SE3 ParseTransform(const std::string& option, const std::string& text);
 /// "x y z qx qy qz qw": m and a unit quaternion.
 SE3 ParsePose(const std::string& option, const std::string& text);
 
+/// This process's command line, as it could be typed again.
+std::string CommandLineOfThis();
+
 /// A file below the project's config/ folder: where this program was built from, or beside its installation.
 std::string ConfigFile(const std::string& name);
 

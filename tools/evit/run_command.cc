@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -10,20 +9,6 @@
 #include "tools/run/run.h"
 
 namespace evit {
-namespace {
-
-// This process's command line, as it could be typed again.
-std::string CommandLine() {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  std::string line;
-  for (std::string word; std::getline(file, word, '\0');) {
-    const bool plain = !word.empty() && word.find_first_of(" \t\n\"'$*?;&|<>()\\") == std::string::npos;
-    line += (line.empty() ? "" : " ") + (plain ? word : "\"" + word + "\"");
-  }
-  return line;
-}
-
-}  // namespace
 
 void AddRunCommand(CLI::App* app) {
   struct Options {
@@ -35,7 +20,9 @@ void AddRunCommand(CLI::App* app) {
   CLI::App* run =
       app->add_subcommand("run", "Track a recorded log: starts the four services, scores the result");
   run->add_option("--log", o->job.log, "LCM log with EVENTS and IMU (evit import)")->required();
-  run->add_option("--map", o->job.map, "Semi-dense map: PCD, PLY or text, metres, z up")->required();
+  run->add_option("--map", o->job.map, "Semi-dense map: PCD, PLY or text, metres, z up");
+  run->add_option("--photometric-map", o->job.photometric_map,
+                  "For method EVPT: PLY with intensities (evit map photometric); --map may be left out then");
   run->add_option("--rig", o->job.rig, "Calibration, e.g. config/vector/rig.textproto")->required();
   run->add_option("--config", o->job.config, "Tracker settings (default: config/tracker.textproto)");
   auto* pose =
@@ -55,6 +42,8 @@ void AddRunCommand(CLI::App* app) {
                   "With --realtime: play it so many times, and watch the memory (soak)")
       ->check(CLI::PositiveNumber);
   run->add_option("--seconds", o->seconds, "A:B, play only this part of the log");
+  run->add_option("--record", o->job.record,
+                  "LCM log to write the keyframes (surfaces, IMU) and windows to, 15 to 30 MB/s");
   run->add_option("--lcm-url", o->job.lcm_url,
                   "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
   run->add_option("--prefix", o->job.prefix, "Prefix of all channels, so that several pipelines share a bus");
@@ -70,7 +59,7 @@ void AddRunCommand(CLI::App* app) {
     if (job.config.empty()) job.config = ConfigFile("tracker.textproto");
     job.lossless = !o->realtime;
     if (job.lossless && job.loops > 1) throw std::runtime_error("--loops needs --realtime");
-    job.command = CommandLine();
+    job.command = CommandLineOfThis();
     const int code = Run(job);
     if (code != 0) throw CLI::RuntimeError(code);
   });

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "common/config/config.h"
+#include "tools/simulation/builtin_motion.h"
 #include "tools/simulation/simulator.h"
 
 namespace evit {
@@ -17,7 +18,8 @@ namespace {
 
 struct Options {
   SimulationSettings settings;
-  std::string rig_path, frame = "auto", seconds, lamp;
+  std::string rig_path, frame = "auto", seconds, lamp, dark, tremor, holes;
+  std::string room = "furnished";
 };
 
 // "A:B" in seconds.
@@ -25,6 +27,30 @@ bool ParseRange(const std::string& text, double* a, double* b) {
   char rest = 0;
   return std::sscanf(text.c_str(), "%lf:%lf%c", a, b, &rest) == 2 && *a >= 0 && *b > *a;
 }
+
+bool ParseTremor(const std::string& text, Tremor* tremor) {
+  char rest = 0;
+  return std::sscanf(text.c_str(), "%lf:%lf:%lf%c", &tremor->hz, &tremor->mm, &tremor->deg, &rest) == 3;
+}
+
+const CLI::Validator kTremor(
+    [](const std::string& text) {
+      Tremor tremor;
+      return ParseTremor(text, &tremor) ? std::string() : "'" + text + "': must be HZ:MM:DEG, e.g. 7:7:1.1";
+    },
+    "HZ:MM:DEG");
+
+bool ParseHoles(const std::string& text, MapHoles* holes) {
+  char rest = 0;
+  return std::sscanf(text.c_str(), "%lf:%lf%c", &holes->share, &holes->diameter_m, &rest) == 2;
+}
+
+const CLI::Validator kHoles(
+    [](const std::string& text) {
+      MapHoles holes;
+      return ParseHoles(text, &holes) ? std::string() : "'" + text + "': must be SHARE:METRES, e.g. 0.5:0.6";
+    },
+    "SHARE:METRES");
 
 const CLI::Validator kRange(
     [](const std::string& text) {
@@ -59,6 +85,9 @@ void PrintProgress(double share) {
 void PrintSummary(const SimulationSettings& settings, const SimulationSummary& s) {
   std::printf("%s: %.2f s; %s; spline fits to %.2f mm, %.3f deg\n", s.name.c_str(), s.duration_s,
               s.motion.note.c_str(), 1e3 * s.motion.fit_rms_m, s.motion.fit_rms_deg);
+  const MotionSpeed& v = s.motion_speed;
+  std::printf("camera %.2f m/s and %.2f rad/s mean, %.2f and %.2f at the 99th percentile\n", v.mean,
+              v.turn_mean, v.p99, v.turn_p99);
   std::printf("image speed %.0f px/s mean, %.0f at most; depth %.2f m mean; %zu renders\n", s.speed.mean,
               s.speed.max, s.mean_depth, s.n_renders);
   std::printf(
@@ -77,11 +106,20 @@ void Run(Options* options) {
   if (options->frame == "body") s.trajectory.frame = TrajectoryFrame::kBody;
   if (options->frame == "marker-yup") s.trajectory.frame = TrajectoryFrame::kMarkerYUp;
   if (!options->seconds.empty()) ParseRange(options->seconds, &s.trajectory.begin_s, &s.trajectory.end_s);
+  if (!options->tremor.empty()) ParseTremor(options->tremor, &s.trajectory.tremor);
+  if (!options->holes.empty()) ParseHoles(options->holes, &s.map_holes);
+  if (!options->dark.empty()) ParseRange(options->dark, &s.dark_from_s, &s.dark_to_s);
+  s.room = options->room == "plain" ? RoomKind::kPlain : RoomKind::kFurnished;
   if (!options->lamp.empty()) ParseRange(options->lamp, &s.lamp_off_s, &s.lamp_on_s);
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const SimulationSummary summary =
       Simulate(s, rig, "simulated, from " + std::filesystem::path(rig_path).filename().string(),
                terminal ? std::function<void(double)>(PrintProgress) : nullptr);
+  if (s.map_only) {
+    std::printf("%s: map points %zu of %d views, written to %s\n", summary.name.c_str(), summary.n_map_points,
+                summary.n_map_views, s.out.c_str());
+    return;
+  }
   PrintSummary(s, summary);
 }
 
@@ -94,7 +132,7 @@ void AddSimulateCommand(CLI::App* app) {
   SimulationSettings& s = options->settings;
   s.threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 64);
   command->option_defaults()->always_capture_default();
-  command->add_option("--trajectory", s.trajectory.source, "TUM file, builtin:handheld or builtin:fast")
+  command->add_option("--trajectory", s.trajectory.source, "TUM file, or " + BuiltinMotionNames())
       ->required();
   command->add_option("--scene", s.scene_seed, "Seed of the room");
   command->add_option("--out", s.out, "Folder to write")->required();
@@ -104,12 +142,29 @@ void AddSimulateCommand(CLI::App* app) {
   command->add_option("--threads", s.threads, "Threads; the result is the same with any number");
   command->add_option("--preview", s.previews, "Pictures to write: image | events | map on events");
   command->add_option("--lamp", options->lamp, "The lamp goes off and on again, s")->check(kRange);
+  command->add_option("--dark", options->dark, "The lens is covered, s; it takes 0.1 s before and after")
+      ->check(kRange);
+  command->add_option("--room", options->room, "furnished, or plain: hardly any texture")
+      ->check(CLI::IsMember({"furnished", "plain"}));
+  command->add_flag("--moving-box", s.moving_box,
+                    "A textured box moves before the camera; it is not in the map");
   command->add_option("--lamp-share", s.lamp_share, "Share of the light that stays");
 
-  command->add_option("--seconds", options->seconds, "Part of the trajectory file, s from its start")
+  command
+      ->add_option("--seconds", options->seconds,
+                   "Part of the trajectory file, s from its start (in the file's time)")
       ->check(kRange)
       ->group("Motion");
   command->add_option("--duration", s.trajectory.duration_s, "Length of a builtin trajectory, s")
+      ->group("Motion");
+  command->add_option("--play-speed", s.trajectory.play_speed, "Play the trajectory this many times faster")
+      ->group("Motion");
+  command
+      ->add_option("--tremor", options->tremor,
+                   "A hand's tremor on top: frequency and amplitudes, e.g. 7:7:1.1")
+      ->check(kTremor)
+      ->group("Motion");
+  command->add_option("--motion-seed", s.trajectory.variant, "Variant of a builtin trajectory, from 1")
       ->group("Motion");
   command->add_option("--trajectory-frame", options->frame, "What the file's poses are")
       ->check(CLI::IsMember({"auto", "body", "marker-yup"}))
@@ -138,6 +193,21 @@ void AddSimulateCommand(CLI::App* app) {
   add("Map", "--map-outlier-distance", &s.map.outlier_m, "m");
   add("Map", "--map-voxel", &s.map.voxel_m, "m");
   add("Map", "--map-max-points", &s.map.max_points, "Points kept at most");
+  command
+      ->add_option("--map-holes", options->holes,
+                   "This share of the map is missing, in balls of this diameter")
+      ->check(kHoles)
+      ->group("Map");
+  command
+      ->add_flag("--map-only", s.map_only,
+                 "Write map.pcd (and rgbd/) alone: another map for a sequence simulated before with the same "
+                 "options")
+      ->group("Map");
+  command
+      ->add_flag("--rgbd", s.rgbd,
+                 "Also write the map's views: rgbd/{images,depth}/*.png, poses.txt, K.txt (grey; depth in "
+                 "mm, 16 bit)")
+      ->group("Map");
 
   command->callback([options, app] {
     // The words as typed are not kept by the parser; what it read is.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -14,7 +13,8 @@
 namespace evit {
 namespace {
 
-constexpr int kSide = 1000;         // pixels of the longer side of the plan
+constexpr int kSide = 1000;         // pixels of the longer side of a plan that is written
+constexpr int kLeast = 400;         // pixels of its width, for the legend
 constexpr int kBorder = 30;         // pixels around
 constexpr int kFooter = 50;         // pixels below, for scale and heights
 constexpr double kStrays = 0.005;   // share of the points that may lie outside, at each end
@@ -55,11 +55,17 @@ void Write(cv::Mat* picture, const std::string& text, cv::Point at) {
 
 }  // namespace
 
-void WriteTopView(const std::string& path, const PointMap& map) {
-  const auto x = Range(map, 0), y = Range(map, 1), z = Range(map, 2);
+TopView DrawTopView(const PointMap& map, int side, const std::vector<Eigen::Vector2d>& also) {
+  auto x = Range(map, 0), y = Range(map, 1);
+  const auto z = Range(map, 2);
+  for (const Eigen::Vector2d& p : also) {
+    x = {std::min(x.first, static_cast<float>(p.x())), std::max(x.second, static_cast<float>(p.x()))};
+    y = {std::min(y.first, static_cast<float>(p.y())), std::max(y.second, static_cast<float>(p.y()))};
+  }
   const double width = x.second - x.first, height = y.second - y.first;
-  const double scale = kSide / std::max(width, height);  // pixels per metre
-  const cv::Size plan(std::max(400, static_cast<int>(width * scale)), static_cast<int>(height * scale) + 1);
+  const double scale = side / std::max(width, height);  // pixels per metre
+  const cv::Size plan(std::max(kLeast, static_cast<int>(width * scale)),
+                      static_cast<int>(height * scale) + 1);
   cv::Mat picture(plan.height + 2 * kBorder + kFooter, plan.width + 2 * kBorder, CV_8UC3, kPaper);
   const auto pixel = [&](double px, double py) {
     return cv::Point(kBorder + static_cast<int>((px - x.first) * scale),
@@ -94,7 +100,11 @@ void WriteTopView(const std::string& path, const PointMap& map) {
   cv::Mat legend = picture(cv::Rect(right, base - 6, kLegend, 8));
   cv::resize(colours, legend, legend.size(), 0, 0, cv::INTER_AREA);
   Write(&picture, Format("z %.2f .. %.2f m", z.first, z.second), {right, base - 12});
+  return {picture, scale, {kBorder - x.first * scale, kBorder + y.second * scale}};
+}
 
+void WriteTopView(const std::string& path, const PointMap& map) {
+  const cv::Mat picture = DrawTopView(map, kSide).picture;
   bool written = false;
   try {
     written = cv::imwrite(path, picture);

@@ -48,6 +48,7 @@ void FillFromRecorder(const Recorder& recorder, report::Report* report) {
     out->set_seconds(ToSeconds(change.t - first));
     out->set_mode(ModeName(change.mode));
     out->set_reason(change.reason);
+    out->set_utime(static_cast<double>(change.t));
   }
   for (report::Service& service : *report->mutable_services()) {
     const auto it = recorder.statuses().find(service.name());

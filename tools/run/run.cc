@@ -14,6 +14,7 @@
 #include "common/evaluation/trajectory_error.h"
 #include "common/service/runner.h"
 #include "tools/progress.h"
+#include "tools/run/bus_log.h"
 #include "tools/run/latency.h"
 #include "tools/run/local_network.h"
 #include "tools/run/memory_log.h"
@@ -51,7 +52,10 @@ std::vector<ProcmanCommand> Commands(const RunJob& job, const std::string& url, 
     std::filesystem::remove(path);  // of an earlier run
     return path;
   };
-  std::vector<std::string> map_server{"map_server", "--map", job.map};
+  std::vector<std::string> map_server{"map_server"};
+  if (!job.map.empty()) map_server.insert(map_server.end(), {"--map", job.map});
+  if (!job.photometric_map.empty())
+    map_server.insert(map_server.end(), {"--photometric-map", job.photometric_map});
   std::vector<std::string> optimizer{"window_optimizer", "--rig",          job.rig,        "--config",
                                      job.config,         "--initial-pose", PoseText(start)};
   std::vector<std::string> builder{"frame_builder", "--rig", job.rig, "--config", job.config};
@@ -197,6 +201,10 @@ int Run(const RunJob& job) {
   const auto bus = OpenLcmBus(url);
   const Channels channels(job.prefix);
   Recorder recorder(bus.get(), channels);
+  std::unique_ptr<BusLog> bus_log;
+  if (!job.record.empty())
+    bus_log = std::make_unique<BusLog>(bus.get(), job.record,
+                                       std::vector<std::string>{channels.keyframe, channels.window_state});
   std::unique_ptr<LatencyProbe> latency;
   if (!job.lossless && job.speed == 1 && job.loops == 1)
     latency = std::make_unique<LatencyProbe>(bus.get(), channels);
@@ -218,6 +226,7 @@ int Run(const RunJob& job) {
   while (bus->Poll(50) > 0) {  // each service's last STATUS
   }
   if (job.loops > 1) memory.Write(job.out);
+  if (bus_log != nullptr) bus_log->Close();
   return WriteResults(job, inputs, recorder, pipeline, outcome);
 }
 

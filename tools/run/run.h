@@ -11,6 +11,7 @@ namespace evit {
 /// One run of the four services on a recorded log.
 struct RunJob {
   std::string log, map, rig, config;  // files
+  std::string photometric_map;        // the same, for EVPT; `map` may be empty then
   std::string out;                    // folder for the results
   std::string truth;                  // TUM file to score against; empty: none
   std::optional<SE3> initial_pose;    // of the body in the map
@@ -21,6 +22,7 @@ struct RunJob {
   std::optional<std::pair<double, double>> seconds;  // part of the log
   std::string lcm_url, prefix;
   std::string command;  // for the report
+  std::string record;   // log to write KEYFRAME and WINDOW_STATE to; empty: none
 };
 
 /// Starts the services, waits for the end and writes trajectory.tum, smoothed.tum, covariance.csv,

@@ -13,6 +13,7 @@
 #include "common/config/config.h"
 #include "common/evaluation/decimal_time.h"
 #include "common/map/map_file.h"
+#include "common/map/photometric_map.h"
 
 namespace evit {
 namespace {
@@ -91,8 +92,16 @@ SE3 StartPose(const RunJob& job, Utime begin) {
 RunInputs PrepareRun(const RunJob& job) {
   RunInputs inputs;
   LoadRig(job.rig);
-  LoadTracker(job.config);
-  RequireMetres(Summarize(LoadMap(job.map).map), job.map);
+  const bool photometric = LoadTracker(job.config).method() == config::Tracker::EVPT;
+  if (photometric && job.photometric_map.empty()) {
+    throw std::runtime_error(job.config +
+                             ": method EVPT needs a photometric map: give --photometric-map FILE");
+  }
+  if (!photometric && job.map.empty()) {
+    throw std::runtime_error("--map is required: the semi-dense map that this method tracks against");
+  }
+  if (!job.map.empty()) RequireMetres(Summarize(LoadMap(job.map).map), job.map);
+  if (!job.photometric_map.empty()) LoadPhotometricMap(job.photometric_map);
   ReadSpan(job, &inputs);
   inputs.start = StartPose(job, inputs.begin);
   if (!job.truth.empty()) {

@@ -32,10 +32,12 @@ void Describe(const RunJob& job, const RunInputs& inputs, report::Report* report
   report->set_command(job.command);
   report->set_host(host);
   report->set_rig(job.rig);
-  report->set_map(job.map);
+  report->set_map(job.map.empty() ? job.photometric_map : job.map);
   report->set_log(job.log);
   report->set_config(ReadText(job.config));
   report->set_lossless(job.lossless);
+  report->set_begin_utime(static_cast<double>(inputs.begin));
+  report->set_end_utime(static_cast<double>(inputs.end));
   report->set_events(static_cast<double>(inputs.n_events));
   report->set_event_rate_per_s(static_cast<double>(inputs.n_events) / ToSeconds(inputs.end - inputs.begin));
 }

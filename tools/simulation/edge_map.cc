@@ -34,8 +34,35 @@ double NearestInverseDepth(const View& view, int width, int x, int y) {
   return nearest > 1.03F * centre ? nearest : centre;
 }
 
-std::vector<Utime> ChooseViews(const PoseSpline& motion, Utime begin, Utime end,
-                               const MapSettings& settings) {
+Random RandomOfView(std::uint64_t seed, int i) {
+  return Random(seed, 0x3A90000 + static_cast<std::uint64_t>(i));
+}
+
+Eigen::Vector3d DrawMisplacement(const MapSettings& settings, Random* random) {
+  return settings.view_jitter_m * random->GaussianVector();
+}
+
+std::vector<Eigen::Vector3d> PointsOfView(const Renderer& renderer, const SE3& T_map_camera,
+                                          const MapSettings& settings, Random random) {
+  View view;
+  renderer.Render(T_map_camera, &view);
+  const Camera& camera = renderer.camera();
+  const Eigen::Vector3d misplaced = DrawMisplacement(settings, &random);
+  std::vector<Eigen::Vector3d> points;
+  for (const EdgePixel& edge : FindEdges(view, camera.width, camera.height, settings.edge_threshold)) {
+    const Eigen::Vector2d pixel = edge.pixel + settings.edge_noise_px * random.Gaussian() * edge.normal;
+    const double depth = (1 + settings.depth_noise * random.Gaussian()) / edge.inverse_depth;
+    Eigen::Vector3d ray, moved = Eigen::Vector3d::Zero();
+    if (random.Chance(settings.outlier_share)) moved = settings.outlier_m * random.Direction();
+    if (camera.Unproject(pixel, &ray)) points.push_back(T_map_camera * (depth * ray) + misplaced + moved);
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<Utime> ChooseMapViews(const PoseSpline& motion, Utime begin, Utime end,
+                                  const MapSettings& settings) {
   std::vector<Utime> times;
   std::vector<SE3> poses;
   const auto step = std::max<Utime>(1000, static_cast<Utime>(settings.interval_s * 1e6));
@@ -52,24 +79,10 @@ std::vector<Utime> ChooseViews(const PoseSpline& motion, Utime begin, Utime end,
   return times;
 }
 
-std::vector<Eigen::Vector3d> PointsOfView(const Renderer& renderer, const SE3& T_map_camera,
-                                          const MapSettings& settings, Random random) {
-  View view;
-  renderer.Render(T_map_camera, &view);
-  const Camera& camera = renderer.camera();
-  const Eigen::Vector3d jitter = settings.view_jitter_m * random.GaussianVector();
-  std::vector<Eigen::Vector3d> points;
-  for (const EdgePixel& edge : FindEdges(view, camera.width, camera.height, settings.edge_threshold)) {
-    const Eigen::Vector2d pixel = edge.pixel + settings.edge_noise_px * random.Gaussian() * edge.normal;
-    const double depth = (1 + settings.depth_noise * random.Gaussian()) / edge.inverse_depth;
-    Eigen::Vector3d ray, moved = Eigen::Vector3d::Zero();
-    if (random.Chance(settings.outlier_share)) moved = settings.outlier_m * random.Direction();
-    if (camera.Unproject(pixel, &ray)) points.push_back(T_map_camera * (depth * ray) + jitter + moved);
-  }
-  return points;
+Eigen::Vector3d ViewMisplacement(const MapSettings& settings, std::uint64_t seed, int i) {
+  Random random = RandomOfView(seed, i);
+  return DrawMisplacement(settings, &random);
 }
-
-}  // namespace
 
 std::vector<EdgePixel> FindEdges(const View& view, int width, int height, double threshold) {
   cv::Mat log_image(height, width, CV_32F);
@@ -103,12 +116,12 @@ std::vector<EdgePixel> FindEdges(const View& view, int width, int height, double
 
 PointMap MakeEdgeMap(const Renderer& renderer, const Rig& rig, const PoseSpline& motion, Utime begin,
                      Utime end, const MapSettings& settings, std::uint64_t seed, int threads, int* n_views) {
-  const std::vector<Utime> times = ChooseViews(motion, begin, end, settings);
+  const std::vector<Utime> times = ChooseMapViews(motion, begin, end, settings);
   *n_views = static_cast<int>(times.size());
   std::vector<std::vector<Eigen::Vector3d>> points(times.size());
   ParallelFor(*n_views, threads, [&](int i) {
-    points[i] = PointsOfView(renderer, motion.Pose(times[i]) * rig.T_body_camera, settings,
-                             Random(seed, 0x3A90000 + static_cast<std::uint64_t>(i)));
+    points[i] =
+        PointsOfView(renderer, motion.Pose(times[i]) * rig.T_body_camera, settings, RandomOfView(seed, i));
   });
   PointMap map;
   std::unordered_set<std::uint64_t> voxels;

@@ -36,6 +36,13 @@ struct EdgePixel {
 /// Local maxima of the gradient of log intensity along its direction.
 std::vector<EdgePixel> FindEdges(const View& view, int width, int height, double threshold);
 
+/// Stamps of the views a map is made from: each at some distance or angle from all before.
+std::vector<Utime> ChooseMapViews(const PoseSpline& motion, Utime begin, Utime end,
+                                  const MapSettings& settings);
+
+/// By how much view i is misplaced, m, in the map frame.
+Eigen::Vector3d ViewMisplacement(const MapSettings& settings, std::uint64_t seed, int i);
+
 /// The map that posed depth views along the path would give: edges put into space, in random (seeded) order.
 PointMap MakeEdgeMap(const Renderer& renderer, const Rig& rig, const PoseSpline& motion, Utime begin,
                      Utime end, const MapSettings& settings, std::uint64_t seed, int threads, int* n_views);

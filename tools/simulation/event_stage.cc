@@ -30,7 +30,7 @@ class PeakMeter {
 }  // namespace
 
 EventCounts SimulateEvents(const Renderer& renderer, const PoseSpline& motion, const Rig& rig,
-                           const RenderSchedule& schedule, const Lamp& lamp,
+                           const RenderSchedule& schedule, const Disturbances& disturbances,
                            const EventSensorSettings& settings, std::uint64_t seed, int threads,
                            const std::function<void(const EventArray&)>& sink,
                            const std::function<void(double)>& progress) {
@@ -48,8 +48,10 @@ EventCounts SimulateEvents(const Renderer& renderer, const PoseSpline& motion, c
     const int count = std::min(kBatch, n - first);
     ParallelFor(count, threads, [&](int k) {
       const Utime t = schedule.times[first + k];
-      renderer.Render(motion.Pose(t) * rig.T_body_camera, &views[k]);
-      const auto light = static_cast<float>(lamp.Factor(t));
+      std::vector<Surface> moving;
+      if (disturbances.box) moving = disturbances.box->At(t);
+      renderer.Render(motion.Pose(t) * rig.T_body_camera, &views[k], moving);
+      const auto light = static_cast<float>(disturbances.lamp.Factor(t) * disturbances.cover.Factor(t));
       if (light == 1) return;
       for (float& pixel : views[k].image) pixel *= light;
     });

@@ -16,8 +16,8 @@ constexpr Utime kHalfWindow = 5'000;
 }  // namespace
 
 Preview::Preview(const Renderer& renderer, const Rig& rig, const PoseSpline& motion, Utime begin, Utime end,
-                 int count)
-    : renderer_(renderer), rig_(rig), motion_(motion) {
+                 int count, const MovingBox* box)
+    : renderer_(renderer), rig_(rig), motion_(motion), box_(box) {
   for (int i = 0; i < count; ++i)
     instants_.push_back({begin + (2 * Utime{i} + 1) * (end - begin) / (2 * Utime{count}), {}});
 }
@@ -38,7 +38,9 @@ void Preview::Write(const PointMap& map, const std::function<std::string(const s
   for (std::size_t k = 0; k < instants_.size(); ++k) {
     const SE3 T_map_camera = motion_.Pose(instants_[k].t) * rig_.T_body_camera;
     View view;
-    renderer_.Render(T_map_camera, &view);
+    std::vector<Surface> moving;
+    if (box_) moving = box_->At(instants_[k].t);
+    renderer_.Render(T_map_camera, &view, moving);
     cv::Mat grey, image;
     cv::Mat(size, CV_32F, view.image.data()).convertTo(grey, CV_8U);
     cv::cvtColor(grey, image, cv::COLOR_GRAY2BGR);

@@ -7,6 +7,7 @@
 #include "common/events/event.h"
 #include "common/geometry/rig.h"
 #include "common/map/point_map.h"
+#include "tools/simulation/moving_box.h"
 #include "tools/simulation/pose_spline.h"
 #include "tools/simulation/renderer.h"
 
@@ -16,9 +17,9 @@ namespace evit {
 /// the true pose over the same events. The map must lie on the events.
 class Preview {
  public:
-  /// `count` instants spread over begin..end; 0: none.
+  /// `count` instants spread over begin..end; 0: none. `box`: null where there is none.
   Preview(const Renderer& renderer, const Rig& rig, const PoseSpline& motion, Utime begin, Utime end,
-          int count);
+          int count, const MovingBox* box);
 
   /// All events, in order.
   void Add(const EventArray& events);
@@ -34,6 +35,7 @@ class Preview {
   const Renderer& renderer_;
   const Rig& rig_;
   const PoseSpline& motion_;
+  const MovingBox* box_;
   std::vector<Instant> instants_;
 };
 

@@ -47,15 +47,6 @@ SpeedSample MeasureSpeed(const PoseSpline& motion, const Rig& rig, const Scene& 
 
 }  // namespace
 
-double Lamp::Factor(Utime t) const {
-  if (on <= off) return 1;
-  const auto progress = [&](Utime start) {
-    return std::clamp(static_cast<double>(t - start) / static_cast<double>(std::max<Utime>(1, ramp)), 0.0,
-                      1.0);
-  };
-  return 1 - (1 - share) * (progress(off) - progress(on));
-}
-
 RenderSchedule PlanRenders(const PoseSpline& motion, const Rig& rig, const Scene& scene, Utime begin,
                            Utime end, double max_step_px, int threads) {
   const int n = static_cast<int>((end - begin) / kInterval) + 2;

@@ -8,16 +8,6 @@
 
 namespace evit {
 
-/// The lamp: ambient light falls to `share` from `off` to `on` (us of the sequence's clock), each over a
-/// ramp.
-struct Lamp {
-  Utime off = 0, on = 0;  // equal: never off
-  double share = 0.35;
-  Utime ramp = 30'000;  // us
-
-  double Factor(Utime t) const;
-};
-
 struct ImageSpeed {
   double mean = 0, median = 0, p95 = 0, max = 0;  // px/s
 };

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "tools/simulation/screen_span.h"
+#include "tools/simulation/vector_code.h"
 
 namespace evit {
 namespace {
@@ -48,16 +49,18 @@ Renderer::Renderer(const Camera& camera, const Scene& scene)
   }
 }
 
-void Renderer::Render(const SE3& T_map_camera, View* view) const {
+void Renderer::Render(const SE3& T_map_camera, View* view, const std::vector<Surface>& moving) const {
   const std::size_t n = ray_x_.size();
   view->image.assign(n, 0.0F);
   view->inverse_depth.assign(n, 0.0F);
   view->surface.assign(n, -1);
-  std::vector<PlacedSurface> placed(scene_.surfaces.size());
+  const std::size_t n_scene = scene_.surfaces.size();
+  std::vector<PlacedSurface> placed(n_scene + moving.size());
   const Eigen::Matrix3d R = T_map_camera.R();
   for (std::size_t i = 0; i < placed.size(); ++i) {
+    const Surface& surface = i < n_scene ? scene_.surfaces[i] : moving[i - n_scene];
     const bool seen =
-        PlaceSurface(scene_.surfaces[i], static_cast<std::int32_t>(i), R, T_map_camera.p, focal_, &placed[i]);
+        PlaceSurface(surface, static_cast<std::int32_t>(i), R, T_map_camera.p, focal_, &placed[i]);
     if (seen) DrawDepth(placed[i], view);
   }
   Shade(placed, view);
@@ -69,7 +72,7 @@ bool Renderer::FindSpans(const PlacedSurface& placed, View* view, int* first_row
                          last_row);
 }
 
-void Renderer::DrawDepth(const PlacedSurface& placed, View* view) const {
+EVIT_VECTOR_CODE void Renderer::DrawDepth(const PlacedSurface& placed, View* view) const {
   int first_row = 0, last_row = -1;
   if (!FindSpans(placed, view, &first_row, &last_row)) return;
   const bool rectangle = placed.surface->kind == Surface::Kind::kRectangle;
@@ -110,9 +113,36 @@ void Renderer::Shade(const std::vector<PlacedSurface>& placed, View* view) const
     while (end < n && id[end] == id[begin]) ++end;
     if (id[begin] < 0) continue;
     const PlacedSurface& surface = placed[id[begin]];
+    if (surface.IsPlane()) {
+      ShadePlane(surface, begin, end, view);
+      continue;
+    }
     for (std::size_t i = begin; i < end; ++i) {
       view->image[i] = surface.Shade(ray_x_[i], ray_y_[i], view->inverse_depth[i]);
     }
+  }
+}
+
+// As PlacedSurface::Shade, in blocks: what has no branches first, as vector code.
+EVIT_VECTOR_CODE void Renderer::ShadePlane(const PlacedSurface& p, std::size_t begin, std::size_t end,
+                                           View* view) const {
+  constexpr std::size_t kBlock = 64;
+  std::array<float, kBlock> u, v, lod;
+  const Texture& texture = *p.surface->texture;
+  const auto width = static_cast<float>(texture.width()), height = static_cast<float>(texture.height());
+  const float gain = p.surface->gain;
+  for (; begin < end; begin += kBlock) {
+    const std::size_t n = std::min(kBlock, end - begin);
+    const float *rx = ray_x_.data() + begin, *ry = ray_y_.data() + begin;
+    const float* inverse_depth = view->inverse_depth.data() + begin;
+    for (std::size_t i = 0; i < n; ++i) {
+      const float z = 1 / inverse_depth[i];
+      u[i] = (p.s.x() * rx[i] + p.s.y() * ry[i] + p.s.z()) * z * width;
+      v[i] = (p.t.x() * rx[i] + p.t.y() * ry[i] + p.t.z()) * z * height;
+      lod[i] = p.lod_offset + 1.6F * ApproximateLog2(z);
+    }
+    float* image = view->image.data() + begin;
+    for (std::size_t i = 0; i < n; ++i) image[i] = gain * texture.Sample(u[i], v[i], lod[i]);
   }
 }
 
@@ -139,8 +169,9 @@ void Renderer::Smooth(const std::vector<PlacedSurface>& placed, View* view) cons
   }
 }
 
-float Renderer::SmoothPixel(const std::vector<PlacedSurface>& placed, const std::int32_t* ids, int n_ids,
-                            int x, int y, float fallback) const {
+EVIT_VECTOR_CODE float Renderer::SmoothPixel(const std::vector<PlacedSurface>& placed,
+                                             const std::int32_t* ids, int n_ids, int x, int y,
+                                             float fallback) const {
   static const auto kOffsets = SampleOffsets();
   const std::size_t i = static_cast<std::size_t>(y) * camera_.width + x;
   const float dxx = 0.5F * (ray_x_[i + 1] - ray_x_[i - 1]), dyx = 0.5F * (ray_y_[i + 1] - ray_y_[i - 1]);
@@ -176,14 +207,15 @@ float Renderer::SmoothPixel(const std::vector<PlacedSurface>& placed, const std:
   float sum = 0;
   int covered = 0;
   for (int j = 0; j < n_ids; ++j) {
+    std::uint32_t mine = 0;  // bit k: sample k is of this surface
+    for (int k = 0; k < kSamples; ++k) mine |= static_cast<std::uint32_t>(winner[k] == j) << k;
     float mean_x = 0, mean_y = 0, mean_depth = 0;
     int count = 0;
-    for (int k = 0; k < kSamples; ++k) {
-      if (winner[k] != j) continue;
+    for (; mine != 0; mine &= mine - 1, ++count) {
+      const int k = __builtin_ctz(mine);
       mean_x += rx[k];
       mean_y += ry[k];
       mean_depth += depth[k];
-      ++count;
     }
     if (count == 0) continue;
     const float share = 1.0F / static_cast<float>(count);

@@ -26,7 +26,8 @@ class Renderer {
  public:
   Renderer(const Camera& camera, const Scene& scene);
 
-  void Render(const SE3& T_map_camera, View* view) const;
+  /// `moving`: further surfaces, where they are now; View::surface counts them after the scene's.
+  void Render(const SE3& T_map_camera, View* view, const std::vector<Surface>& moving = {}) const;
 
   const Camera& camera() const { return camera_; }
   const Scene& scene() const { return scene_; }
@@ -35,6 +36,7 @@ class Renderer {
   bool FindSpans(const PlacedSurface& placed, View* view, int* first_row, int* last_row) const;
   void DrawDepth(const PlacedSurface& placed, View* view) const;
   void Shade(const std::vector<PlacedSurface>& placed, View* view) const;
+  void ShadePlane(const PlacedSurface& placed, std::size_t begin, std::size_t end, View* view) const;
   void Smooth(const std::vector<PlacedSurface>& placed, View* view) const;
   float SmoothPixel(const std::vector<PlacedSurface>& placed, const std::int32_t* ids, int n_ids, int x,
                     int y, float fallback) const;

@@ -69,14 +69,22 @@ class Json {
 
 }  // namespace
 
+std::string RoomName(RoomKind room) { return room == RoomKind::kPlain ? "plain" : "furnished"; }
+
 void WriteReport(const std::string& path, const SimulationSettings& settings, const SimulationSummary& s) {
   Json json;
   json.Open("").Text("name", s.name).Text("command", settings.command);
   json.Number("scene_seed", static_cast<double>(settings.scene_seed))
       .Number("seed", static_cast<double>(settings.seed));
+  json.Text("room", RoomName(settings.room)).Number("moving_box", settings.moving_box ? 1 : 0);
   json.Open("trajectory").Text("source", settings.trajectory.source).Text("note", s.motion.note);
   json.Number("begin_us", static_cast<double>(s.motion.begin)).Number("duration_s", s.duration_s);
-  json.Number("knot_ms", settings.trajectory.knot_ms);
+  json.Number("knot_ms", settings.trajectory.knot_ms).Number("play_speed", settings.trajectory.play_speed);
+  json.Number("variant", static_cast<double>(settings.trajectory.variant));
+  const Tremor& tremor = settings.trajectory.tremor;
+  json.Number("tremor_hz", tremor.hz).Number("tremor_mm", tremor.mm).Number("tremor_deg", tremor.deg);
+  json.Number("speed_mean_m_s", s.motion_speed.mean).Number("speed_p99_m_s", s.motion_speed.p99);
+  json.Number("rate_mean_rad_s", s.motion_speed.turn_mean).Number("rate_p99_rad_s", s.motion_speed.turn_p99);
   json.Number("fit_rms_m", s.motion.fit_rms_m).Number("fit_rms_deg", s.motion.fit_rms_deg).Close();
   json.Open("sensor").Number("threshold", settings.sensor.threshold);
   json.Number("threshold_spread", settings.sensor.threshold_spread);
@@ -104,9 +112,11 @@ void WriteReport(const std::string& path, const SimulationSettings& settings, co
   json.Number("depth_noise", settings.map.depth_noise).Number("edge_noise_px", settings.map.edge_noise_px);
   json.Number("view_jitter_m", settings.map.view_jitter_m)
       .Number("outlier_share", settings.map.outlier_share);
-  json.Number("outlier_m", settings.map.outlier_m).Number("voxel_m", settings.map.voxel_m).Close();
+  json.Number("outlier_m", settings.map.outlier_m).Number("voxel_m", settings.map.voxel_m);
+  json.Number("hole_share", settings.map_holes.share).Number("hole_m", settings.map_holes.diameter_m).Close();
   json.Open("lamp").Number("off_s", settings.lamp_off_s).Number("on_s", settings.lamp_on_s);
   json.Number("share", settings.lamp_share).Close();
+  json.Open("dark").Number("from_s", settings.dark_from_s).Number("to_s", settings.dark_to_s).Close();
   json.Close();
   std::ofstream file(path);
   file << json.Take();

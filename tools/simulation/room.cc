@@ -4,103 +4,16 @@
 #include <array>
 #include <cmath>
 
-#include "tools/simulation/random.h"
-#include "tools/simulation/texture_painter.h"
+#include "tools/simulation/scene_builder.h"
 
 namespace evit {
 namespace {
 
 using Eigen::Vector3d;
 
-class RoomBuilder {
- public:
-  explicit RoomBuilder(std::uint64_t seed) : random_(seed, 0x5CE7E) {}
-
-  Random& random() { return random_; }
-
-  // `base`: grey of the surface's material.
-  void Rectangle(const Vector3d& origin, const Vector3d& edge_s, const Vector3d& edge_t, Paint paint,
-                 double base, double texel = 0.003) {
-    Surface s;
-    s.origin = origin;
-    s.edge_s = edge_s;
-    s.edge_t = edge_t;
-    s.normal = edge_t.cross(edge_s).normalized();
-    s.gain = LightOn(s.normal);
-    s.texture = Picture(edge_s.norm(), edge_t.norm(), paint, base, texel);
-    scene_.surfaces.push_back(s);
-  }
-
-  // A box standing on z = base.z, turned by `yaw`; its four sides and top (and bottom, where it hangs).
-  void Box(const Vector3d& centre_below, const Vector3d& size, double yaw, Paint paint, double base) {
-    const Vector3d x = Vector3d(std::cos(yaw), std::sin(yaw), 0) * size.x();
-    const Vector3d y = Vector3d(-std::sin(yaw), std::cos(yaw), 0) * size.y();
-    const Vector3d z = Vector3d::UnitZ() * size.z(), o = centre_below - 0.5 * x - 0.5 * y;
-    Rectangle(o + z, x, -z, paint, base);           // faces -y
-    Rectangle(o + x + z, y, -z, paint, base);       // faces +x
-    Rectangle(o + x + y + z, -x, -z, paint, base);  // faces +y
-    Rectangle(o + y + z, -y, -z, paint, base);      // faces -x
-    Rectangle(o + y + z, x, -y, paint, base);       // top
-    if (o.z() > 0.02) Rectangle(o, x, y, Paint::kPlain, base);
-  }
-
-  void Cylinder(const Vector3d& base_centre, double radius, double height, Paint paint, double base) {
-    Surface s;
-    s.kind = Surface::Kind::kCylinder;
-    s.origin = base_centre;
-    s.edge_t = Vector3d(0, 0, height);
-    s.radius = radius;
-    s.texture = Picture(6.2832 * radius, height, paint, base, 0.003);
-    scene_.surfaces.push_back(s);
-    Rectangle(base_centre + Vector3d(-radius, radius, height), Vector3d(2 * radius, 0, 0),
-              Vector3d(0, -2 * radius, 0), Paint::kPlain, std::min(240.0, base * 1.2));
-    scene_.surfaces.back().kind = Surface::Kind::kDisc;
-  }
-
-  void Sphere(const Vector3d& centre, double radius, Paint paint, double base) {
-    Surface s;
-    s.kind = Surface::Kind::kSphere;
-    s.origin = centre;
-    s.radius = radius;
-    s.texture = Picture(6.2832 * radius, 3.1416 * radius, paint, base, 0.004);
-    scene_.surfaces.push_back(s);
-  }
-
-  double Grey(double low, double high) { return random_.Uniform(low, high); }
-
-  Paint BusyPaint() {
-    constexpr std::array<Paint, 6> kinds{Paint::kShapes,  Paint::kText,    Paint::kPhoto,
-                                         Paint::kChecker, Paint::kStripes, Paint::kShapes};
-    return kinds[random_.Integer(0, static_cast<int>(kinds.size()) - 1)];
-  }
-  Paint CalmPaint() {
-    constexpr std::array<Paint, 4> kinds{Paint::kPlain, Paint::kGradient, Paint::kWood, Paint::kPlain};
-    return kinds[random_.Integer(0, static_cast<int>(kinds.size()) - 1)];
-  }
-  Paint AnyPaint(double busy) { return random_.Chance(busy) ? BusyPaint() : CalmPaint(); }
-
-  Scene Take() { return std::move(scene_); }
-  Scene& scene() { return scene_; }
-
- private:
-  const Texture* Picture(double width, double height, Paint paint, double base, double texel) {
-    if (paint == Paint::kPlain) texel = std::max(width, height) / 4;
-    if (paint == Paint::kGradient) texel = 0.02;
-    const int w = std::max(2, static_cast<int>(std::lround(width / texel)));
-    const int h = std::max(2, static_cast<int>(std::lround(height / texel)));
-    scene_.textures.emplace_back(PaintPicture(paint, w, h, texel, base, &random_),
-                                 static_cast<float>(width / w),
-                                 paint == Paint::kPlain || paint == Paint::kGradient);
-    return &scene_.textures.back();
-  }
-
-  Random random_;
-  Scene scene_;
-};
-
 constexpr double kHalfX = 2.6, kHalfY = 2.5, kHeight = 2.8;
 
-void AddShell(RoomBuilder* b) {
+void AddShell(SceneBuilder* b) {
   const double wall = b->Grey(140, 200);
   const Vector3d x(2 * kHalfX, 0, 0), y(0, 2 * kHalfY, 0), z(0, 0, kHeight);
   const Vector3d o(-kHalfX, -kHalfY, 0);
@@ -113,7 +26,8 @@ void AddShell(RoomBuilder* b) {
 }
 
 // Posters, pictures and doors on a wall of which `origin` is the top left corner seen from inside.
-void AddPosters(RoomBuilder* b, const Vector3d& origin, const Vector3d& along, double length, int n) {
+void AddPosters(SceneBuilder* b, const Vector3d& origin, const Vector3d& along, double length, int n) {
+  if (b->plain()) return;
   const Vector3d inward = Vector3d(0, 0, -1).cross(along);
   double place = b->Grey(0.1, 0.3);
   for (int i = 0; i < n && place < length - 0.4; ++i) {
@@ -125,7 +39,8 @@ void AddPosters(RoomBuilder* b, const Vector3d& origin, const Vector3d& along, d
   }
 }
 
-void AddTable(RoomBuilder* b, const Vector3d& at, double yaw) {
+// Returns the middle of its top.
+Vector3d AddTable(SceneBuilder* b, const Vector3d& at, double yaw) {
   const double width = b->Grey(0.5, 0.8), length = b->Grey(0.9, 1.4), height = b->Grey(0.5, 0.78);
   const double grey = b->Grey(60, 220);
   b->Box(at + Vector3d(0, 0, height - 0.04), {width, length, 0.04}, yaw, Paint::kWood, grey);
@@ -138,7 +53,7 @@ void AddTable(RoomBuilder* b, const Vector3d& at, double yaw) {
              Paint::kPlain, grey * 0.7);
     }
   }
-  const int n = b->random().Integer(3, 5);
+  const int n = b->plain() ? 2 : b->random().Integer(3, 5);
   for (int i = 0; i < n; ++i) {
     const Vector3d p = turned(b->Grey(-width / 3, width / 3), (i + 0.5 - 0.5 * n) * length / n * 0.85) +
                        Vector3d(0, 0, height);
@@ -153,10 +68,11 @@ void AddTable(RoomBuilder* b, const Vector3d& at, double yaw) {
              b->AnyPaint(0.6), b->Grey(40, 230));
     }
   }
+  return at + Vector3d(0, 0, height);
 }
 
 // Shelf open to -x (before yaw): back, sides, boards, books and boxes on them.
-void AddShelf(RoomBuilder* b, const Vector3d& at, double yaw) {
+void AddShelf(SceneBuilder* b, const Vector3d& at, double yaw) {
   const double width = b->Grey(0.8, 1.3), height = b->Grey(1.3, 2.1), depth = 0.32;
   const double grey = b->Grey(60, 220);
   const int boards = b->random().Integer(3, 5);
@@ -174,7 +90,7 @@ void AddShelf(RoomBuilder* b, const Vector3d& at, double yaw) {
     while (y < width / 2 - 0.2) {
       const double thick = b->random().Chance(0.6) ? b->Grey(0.03, 0.07) : b->Grey(0.1, 0.2);
       const double tall = b->Grey(0.4, 0.85) * (height / boards - 0.06);
-      if (b->random().Chance(0.75)) {
+      if (b->random().Chance(b->plain() ? 0.15 : 0.75)) {
         b->Box(turned(b->Grey(-0.04, 0.02), y + thick / 2, z + 0.03), {0.22, thick, tall}, yaw,
                thick > 0.09 ? b->AnyPaint(0.6) : Paint::kPlain, b->Grey(30, 230));
       }
@@ -184,7 +100,7 @@ void AddShelf(RoomBuilder* b, const Vector3d& at, double yaw) {
 }
 
 // Sofa looking to -x (before yaw).
-void AddSofa(RoomBuilder* b, const Vector3d& at, double yaw) {
+void AddSofa(SceneBuilder* b, const Vector3d& at, double yaw) {
   const double length = b->Grey(1.2, 1.7), grey = b->Grey(50, 200);
   const Paint cloth = b->AnyPaint(0.3);
   const auto turned = [&](double x, double y, double z) -> Vector3d {
@@ -203,8 +119,8 @@ void AddSofa(RoomBuilder* b, const Vector3d& at, double yaw) {
 
 }  // namespace
 
-Scene MakeRoom(std::uint64_t seed) {
-  RoomBuilder b(seed);
+Scene MakeRoom(std::uint64_t seed, RoomKind kind) {
+  SceneBuilder b(seed, 0x5CE7E, kind == RoomKind::kPlain);
   b.scene().free_space = Eigen::AlignedBox3d(Vector3d(-1.5, -1.2, 0.8), Vector3d(0.5, 1.2, 2.1));
   AddShell(&b);
   AddPosters(&b, {kHalfX, kHalfY, kHeight}, {0, -1, 0}, 2 * kHalfY, 5);
@@ -220,7 +136,7 @@ Scene MakeRoom(std::uint64_t seed) {
     if (order[i] == 1) AddShelf(&b, {b.Grey(1.5, 2.0), y, 0}, yaw);
     if (order[i] == 2) AddTable(&b, {b.Grey(1.2, 1.5), y, 0}, yaw);
   }
-  AddTable(&b, {b.Grey(-0.6, 0.2), 1.85, 0}, 1.57 + b.Grey(-0.1, 0.1));
+  b.scene().desk = AddTable(&b, {b.Grey(-0.6, 0.2), 1.85, 0}, 1.57 + b.Grey(-0.1, 0.1));
   AddShelf(&b, {b.Grey(-0.6, 0.2), -2.1, 0}, -1.57 + b.Grey(-0.1, 0.1));
   AddSofa(&b, {-2.1, b.Grey(-0.4, 0.4), 0}, 3.14 + b.Grey(-0.1, 0.1));
   const int stack = b.random().Integer(2, 4);

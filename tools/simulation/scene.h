@@ -33,6 +33,8 @@ struct Scene {
   std::vector<Surface> surfaces;
   std::deque<Texture> textures;    // does not move its elements: surfaces point to them
   Eigen::AlignedBox3d free_space;  // no surface within: where the camera may be
+  Eigen::Vector3d desk =
+      Eigen::Vector3d::Zero();  // middle of the top of a desk beside the free space, towards +y
 
   Scene() = default;
   Scene(const Scene&) = delete;

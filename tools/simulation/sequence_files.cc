@@ -50,6 +50,7 @@ StagedFolder::~StagedFolder() {
 void StagedFolder::Commit() {
   for (const auto& entry : fs::directory_iterator(staging_)) {
     std::error_code error;
+    if (entry.is_directory()) fs::remove_all(final_ / entry.path().filename(), error);  // of an earlier run
     fs::rename(entry.path(), final_ / entry.path().filename(), error);
     if (error) {
       throw std::runtime_error("cannot write " + (final_ / entry.path().filename()).string() + ": " +

@@ -1,11 +1,15 @@
 #include "tools/simulation/simulator.h"
 
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "common/config/rig_file.h"
 #include "tools/simulation/preview.h"
+#include "tools/simulation/rgbd_views.h"
 #include "tools/simulation/room.h"
 #include "tools/simulation/sequence_files.h"
 #include "tools/vector/event_file.h"
@@ -30,12 +34,58 @@ void Check(const SimulationSettings& s, const Rig& rig) {
           "IMU errors must not be negative");
   require(s.map.voxel_m >= 1e-3 && s.map.voxel_m <= 1, "voxel must be 0.001 to 1 m");
   require(s.map.interval_s >= 0.01, "map interval must be at least 0.01 s");
+  require(s.map_holes.share >= 0 && s.map_holes.share < 1, "the share of holes in the map must be 0 to 1");
+  require(s.map_holes.share == 0 || (s.map_holes.diameter_m >= 0.01 && s.map_holes.diameter_m <= 10),
+          "holes in the map must be 0.01 to 10 m large");
+  require(s.dark_to_s >= s.dark_from_s, "the lens must be covered before it is free again");
   require(s.lamp_share > 0 && s.lamp_on_s >= s.lamp_off_s,
           "lamp must go off before it comes on, to a share over 0");
   require(s.threads >= 1 && s.threads <= 256, "threads must be 1 to 256");
   require(s.previews >= 0 && s.previews <= 1000, "previews must be 0 to 1000");
   require(rig.camera.width >= 16 && rig.camera.height >= 16 && rig.imu_rate_hz > 0,
           "rig without camera or IMU rate");
+}
+
+// A map for events that were simulated before must be of the same motion in the same room.
+void RequireSameSequence(const SimulationSettings& settings, const Motion& motion, const SimulatedImu& imu) {
+  const std::filesystem::path folder(settings.out);
+  const std::string other = settings.out + " holds another sequence (";
+  const std::string remedy = "): give --map-only the options that sequence was made with, or another folder";
+  if (std::filesystem::exists(folder / "truth.tum")) {
+    const Trajectory truth = ReadTum((folder / "truth.tum").string());
+    bool same = truth.size() == imu.samples.size();
+    for (std::size_t i = 0; same && i < truth.size(); i += 20) {
+      same = truth[i].t == imu.samples[i].t &&
+             (truth[i].pose.p - motion.spline.Pose(truth[i].t).p).norm() < 1e-6;
+    }
+    if (!same) throw std::runtime_error(other + "truth.tum is of another motion" + remedy);
+  }
+  std::ifstream file(folder / "simulation.json");
+  if (!file) return;
+  const nlohmann::json report = nlohmann::json::parse(file, nullptr, false);
+  if (report.is_discarded())
+    throw std::runtime_error((folder / "simulation.json").string() +
+                             ": is no JSON; simulate the sequence again");
+  if (report.value("scene_seed", settings.scene_seed) != settings.scene_seed ||
+      report.value("room", RoomName(settings.room)) != RoomName(settings.room)) {
+    throw std::runtime_error(other + "simulation.json tells of another room" + remedy);
+  }
+}
+
+PointMap WriteMap(const SimulationSettings& settings, const Rig& rig, const Renderer& renderer,
+                  const Motion& motion, const StagedFolder& folder, SimulationSummary* summary) {
+  PointMap map = MakeEdgeMap(renderer, rig, motion.spline, motion.begin, motion.end, settings.map,
+                             settings.seed, settings.threads, &summary->n_map_views);
+  CutHoles(settings.map_holes, settings.seed, &map);
+  if (map.points.empty()) throw std::runtime_error("the map would be empty: nothing with edges is in view");
+  summary->n_map_points = map.points.size();
+  WriteBinaryPcd(folder.File("map.pcd"), map);
+  if (settings.rgbd) {
+    WriteRgbdViews(folder.File("rgbd"), renderer.scene(), rig, motion.spline,
+                   ChooseMapViews(motion.spline, motion.begin, motion.end, settings.map), settings.map,
+                   settings.seed, settings.threads);
+  }
+  return map;
 }
 
 }  // namespace
@@ -48,10 +98,13 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
     if (progress) progress(share);
   };
   SimulationSummary summary;
-  summary.motion = LoadMotion(settings.trajectory, rig);
-  const Scene scene = MakeRoom(settings.scene_seed);
+  TrajectorySettings trajectory = settings.trajectory;
+  trajectory.tremor_seed = settings.seed;
+  summary.motion = LoadMotion(trajectory, rig);
+  const Scene scene = MakeRoom(settings.scene_seed, settings.room);
   Motion& motion = summary.motion;
   PlaceInRoom(rig, scene, &motion);
+  summary.motion_speed = MeasureMotionSpeed(motion, rig);
   summary.name = settings.name.empty() ? motion.name : settings.name;
   if (summary.name.find('/') != std::string::npos)
     throw std::runtime_error("sequence name must not contain '/'");
@@ -61,6 +114,14 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
 
   const SimulatedImu imu =
       SimulateImu(motion.spline, rig, settings.imu, motion.begin, motion.end, settings.seed);
+  const Renderer renderer(rig.camera, scene);
+  if (settings.map_only) {
+    RequireSameSequence(settings, motion, imu);
+    WriteMap(settings, rig, renderer, motion, folder, &summary);
+    folder.Commit();
+    report(1);
+    return summary;
+  }
   WriteImuFile(folder.File(base + ".imu.txt"), imu);
   WriteGroundTruthFile(folder.File(base + ".gt.txt"), summary.name, motion, rig);
   WriteTruth(folder.File("truth.tum"), motion, imu);
@@ -69,30 +130,32 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
   summary.first_bias = imu.biases.front();
   summary.last_bias = imu.biases.back();
 
-  const Renderer renderer(rig.camera, scene);
   const RenderSchedule schedule = PlanRenders(motion.spline, rig, scene, motion.begin, motion.end,
                                               settings.max_step_px, settings.threads);
   summary.n_renders = schedule.times.size();
   summary.speed = schedule.speed;
   summary.mean_depth = schedule.mean_depth;
   report(0.02);
-  const PointMap map = MakeEdgeMap(renderer, rig, motion.spline, motion.begin, motion.end, settings.map,
-                                   settings.seed, settings.threads, &summary.n_map_views);
-  if (map.points.empty()) throw std::runtime_error("the map would be empty: nothing with edges is in view");
-  summary.n_map_points = map.points.size();
-  WriteBinaryPcd(folder.File("map.pcd"), map);
+  const PointMap map = WriteMap(settings, rig, renderer, motion, folder, &summary);
   report(0.05);
 
-  Lamp lamp;
-  lamp.off = motion.begin + static_cast<Utime>(settings.lamp_off_s * 1e6);
-  lamp.on = motion.begin + static_cast<Utime>(settings.lamp_on_s * 1e6);
-  lamp.share = settings.lamp_share;
-  Preview preview(renderer, rig, motion.spline, motion.begin, motion.end, settings.previews);
+  const auto stamp = [&](double seconds) { return motion.begin + static_cast<Utime>(seconds * 1e6); };
+  Disturbances disturbances;
+  disturbances.lamp.off = stamp(settings.lamp_off_s);
+  disturbances.lamp.on = stamp(settings.lamp_on_s);
+  disturbances.lamp.share = settings.lamp_share;
+  disturbances.cover.from = stamp(settings.dark_from_s);
+  disturbances.cover.to = stamp(settings.dark_to_s);
+  std::unique_ptr<MovingBox> box;
+  if (settings.moving_box)
+    box = std::make_unique<MovingBox>(settings.seed, motion.spline, rig, motion.begin, motion.end);
+  disturbances.box = box.get();
+  Preview preview(renderer, rig, motion.spline, motion.begin, motion.end, settings.previews, box.get());
   // Event stamps are in the camera's clock.
   EventFileWriter writer(folder.File(base + ".left_event.hdf5"), motion.begin - rig.camera_time_offset);
   EventArray shifted;
   summary.events = SimulateEvents(
-      renderer, motion.spline, rig, schedule, lamp, settings.sensor, settings.seed, settings.threads,
+      renderer, motion.spline, rig, schedule, disturbances, settings.sensor, settings.seed, settings.threads,
       [&](const EventArray& events) {
         preview.Add(events);
         shifted = events;

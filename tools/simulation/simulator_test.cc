@@ -6,12 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
-#include "common/config/config.h"
 #include "tools/simulation/room.h"
 #include "tools/vector/event_file.h"
 
@@ -163,6 +161,42 @@ TEST_F(SimulatorTest, LampMakesABurst) {
   EXPECT_GT(burst.events.positive, calm.events.positive + 2 * pixels);
 }
 
+// Another map into the folder, and nothing else; and not for another sequence.
+TEST_F(SimulatorTest, MapOnlyLeavesTheEventsAlone) {
+  Simulate(settings_, rig_, "test", nullptr);
+  const fs::path folder = folder_ / "a";
+  const std::string map = Text(folder / "map.pcd"), events = Text(folder / "fast1.synced.left_event.hdf5"),
+                    report = Text(folder / "simulation.json");
+  settings_.map_only = true;
+  EXPECT_EQ(Error(settings_), "");
+  EXPECT_EQ(Text(folder / "map.pcd"), map);  // the same options give the same map
+  settings_.map_holes = {0.5, 0.6};
+  settings_.rgbd = true;
+  EXPECT_EQ(Error(settings_), "");
+  EXPECT_LT(Text(folder / "map.pcd").size(), map.size() * 6 / 10);
+  EXPECT_TRUE(fs::exists(folder / "rgbd" / "images" / "00000.png"));
+  EXPECT_EQ(Error(settings_), "");  // once more: rgbd/ is replaced
+  EXPECT_EQ(Text(folder / "fast1.synced.left_event.hdf5"), events);
+  EXPECT_EQ(Text(folder / "simulation.json"), report);
+  SimulationSettings other = settings_;
+  other.trajectory.variant = 2;
+  EXPECT_THAT(Error(other), HasSubstr("another motion"));
+  other = settings_;
+  other.scene_seed = 2;
+  EXPECT_THAT(Error(other), HasSubstr("another room"));
+  other = settings_;
+  other.room = RoomKind::kPlain;
+  EXPECT_THAT(Error(other), HasSubstr("another room"));
+  other = settings_;
+  other.map_holes = {1.5, 0.6};
+  EXPECT_THAT(Error(other), HasSubstr("share of holes"));
+  other.out = (folder_ / "b").string();  // a folder of its own will do, too
+  other.map_holes = {};
+  EXPECT_EQ(Error(other), "");
+  EXPECT_EQ(Text(folder_ / "b" / "map.pcd"), map);
+  EXPECT_FALSE(fs::exists(folder_ / "b" / "truth.tum"));
+}
+
 TEST_F(SimulatorTest, RefusesAndLeavesNothing) {
   SimulationSettings bad = settings_;
   bad.trajectory.source = "builtin:flying";
@@ -195,55 +229,6 @@ TEST_F(SimulatorTest, CutsAFileAndRefusesWhatIsNotInIt) {
   const SimulationSummary summary = Simulate(again, rig_, "test", nullptr);
   EXPECT_EQ(summary.name, "truth");
   EXPECT_LT(summary.motion.fit_rms_m, 1e-4);
-}
-
-TEST(LoadMotion, TellsMarkerPosesFromBodyPoses) {
-  const Rig rig = SmallRig();
-  TrajectorySettings settings;
-  settings.source = "builtin:handheld";
-  settings.duration_s = 2;
-  const Motion body = LoadMotion(settings, rig);
-  const SE3 T_yup_zup(ExpSO3(Eigen::Vector3d(-1.5707963267948966, 0, 0)), Eigen::Vector3d::Zero());
-  Trajectory raw;
-  for (Utime t = body.begin; t < body.end; t += 8333) {
-    raw.push_back({t, T_yup_zup * body.spline.Pose(t) * rig.T_marker_body.Inverse()});
-  }
-  const fs::path path = fs::temp_directory_path() / ("evit_raw_" + std::to_string(getpid()) + ".tum");
-  WriteTum(path.string(), raw);
-  settings.source = path.string();
-  const Motion again = LoadMotion(settings, rig);
-  fs::remove(path);
-  EXPECT_THAT(again.note, HasSubstr("poses read as marker-yup"));
-  const Utime t = body.begin + 1'000'000;
-  EXPECT_LT((again.spline.Pose(t).p - body.spline.Pose(t).p).norm(), 1e-4);
-  EXPECT_LT(AngularDistance(again.spline.Pose(t).q, body.spline.Pose(t).q), 1e-3);
-}
-
-// The recordings themselves, and what is simulated from them.
-TEST(LoadMotion, TellsTheFrameOfRealFiles) {
-  const char* shared = std::getenv("EVIT_SHARED_DATA");
-  const fs::path data = shared ? fs::path(shared) : fs::path(EVIT_SOURCE_DIR) / "../shared/data";
-  const fs::path folder = data / "vector/groundtruth";
-  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not here; set EVIT_SHARED_DATA";
-  const Rig rig = LoadRig(EVIT_SOURCE_DIR "/config/vector/rig.textproto");
-  const Scene scene = MakeRoom(1);
-  for (const char* name : {"robot_normal", "mountain_normal", "sofa_fast"}) {
-    TrajectorySettings settings;
-    settings.source = (folder / (std::string(name) + ".txt")).string();
-    settings.begin_s = 5;
-    settings.end_s = 15;
-    Motion motion = LoadMotion(settings, rig);
-    EXPECT_THAT(motion.note, HasSubstr("poses read as marker-yup")) << name;
-    PlaceInRoom(rig, scene, &motion);
-    Trajectory body;
-    for (Utime t = motion.begin; t < motion.end; t += 5000) body.push_back({t, motion.spline.Pose(t)});
-    const fs::path path = fs::temp_directory_path() / ("evit_body_" + std::to_string(getpid()) + ".tum");
-    WriteTum(path.string(), body);
-    settings.source = path.string();
-    settings.begin_s = settings.end_s = 0;
-    EXPECT_THAT(LoadMotion(settings, rig).note, HasSubstr("poses read as body")) << name;
-    fs::remove(path);
-  }
 }
 
 }  // namespace

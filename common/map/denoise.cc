@@ -1,0 +1,112 @@
+#include "common/map/denoise.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace evit {
+namespace {
+
+/// Points by cells of a grid as wide as the radius.
+class Neighbours {
+ public:
+  Neighbours(const std::vector<Eigen::Vector3f>& points, double radius)
+      : points_(points), inverse_(1 / radius), radius2_(static_cast<float>(radius * radius)) {
+    cells_.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) cells_.emplace_back(Key(Cell(points[i])), i);
+    std::sort(cells_.begin(), cells_.end());
+  }
+
+  /// Calls visit(point, squared distance) for all within the radius of `p`, itself included.
+  template <typename Visit>
+  void ForEach(const Eigen::Vector3f& p, Visit visit) const {
+    const std::array<std::int64_t, 3> at = Cell(p);
+    for (std::int64_t x = -1; x <= 1; ++x) {
+      for (std::int64_t y = -1; y <= 1; ++y) {
+        // Three cells along z follow each other.
+        const std::uint64_t first = Key({at[0] + x, at[1] + y, at[2] - 1}),
+                            last = Key({at[0] + x, at[1] + y, at[2] + 1});
+        auto it = std::lower_bound(cells_.begin(), cells_.end(), std::make_pair(first, std::size_t{0}));
+        for (; it != cells_.end() && it->first <= last; ++it) {
+          const float d2 = (points_[it->second] - p).squaredNorm();
+          if (d2 <= radius2_) visit(points_[it->second], d2);
+        }
+      }
+    }
+  }
+
+ private:
+  std::array<std::int64_t, 3> Cell(const Eigen::Vector3f& p) const {
+    std::array<std::int64_t, 3> cell{};
+    for (int k = 0; k < 3; ++k) cell[k] = static_cast<std::int64_t>(std::floor(p[k] * inverse_));
+    return cell;
+  }
+  // 21 bits each, the sign moved out of the way: neighbours along z have neighbouring keys.
+  static std::uint64_t Key(const std::array<std::int64_t, 3>& cell) {
+    std::uint64_t key = 0;
+    for (const std::int64_t c : cell)
+      key = (key << 21) | (static_cast<std::uint64_t>(c + (1 << 20)) & 0x1FFFFF);
+    return key;
+  }
+
+  const std::vector<Eigen::Vector3f>& points_;
+  double inverse_;
+  float radius2_;
+  std::vector<std::pair<std::uint64_t, std::size_t>> cells_;
+};
+
+Eigen::Vector3f OntoLine(const Neighbours& neighbours, const Eigen::Vector3f& p, double sigma, int* n) {
+  // Relative to p: single precision loses nothing where the map is large.
+  double weight = 0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+  *n = 0;
+  neighbours.ForEach(p, [&](const Eigen::Vector3f& q, float d2) {
+    const double w = std::exp(-0.5 * d2 / (sigma * sigma));
+    const Eigen::Vector3d d = (q - p).cast<double>();
+    weight += w;
+    mean += w * d;
+    square += w * d * d.transpose();
+    ++*n;
+  });
+  mean /= weight;
+  const Eigen::Matrix3d covariance = square / weight - mean * mean.transpose();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(covariance);
+  const Eigen::Vector3d along = solver.eigenvectors().col(2);
+  return p + (mean - along * along.dot(mean)).cast<float>();
+}
+
+}  // namespace
+
+DenoiseSummary Denoise(const DenoiseSettings& settings, PointMap* map) {
+  DenoiseSummary summary;
+  if (map->points.empty() || settings.radius <= 0) return summary;
+  const Neighbours neighbours(map->points, settings.radius);
+  std::vector<Eigen::Vector3f> moved(map->points.size());
+  std::vector<int> n(map->points.size());
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    moved[i] = OntoLine(neighbours, map->points[i], settings.radius / 2, &n[i]);
+  std::vector<int> sorted = n;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
+                   sorted.end());
+  const bool dense = sorted[sorted.size() / 2] >= settings.min_usual_neighbours;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const bool vouched = n[i] >= settings.min_neighbours;
+    if (!vouched && dense) {
+      ++summary.n_dropped;
+      continue;
+    }
+    summary.n_moved += vouched ? 1 : 0;
+    map->points[kept++] = vouched ? moved[i] : map->points[i];
+  }
+  map->points.resize(kept);
+  return summary;
+}
+
+}  // namespace evit

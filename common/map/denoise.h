@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+
+#include "common/map/point_map.h"
+
+namespace evit {
+
+struct DenoiseSettings {
+  double radius = 0.02;    // m: neighbours that vouch for a point
+  int min_neighbours = 5;  // within it, the point itself included: fewer, and it stays as it is or goes
+  double min_usual_neighbours =
+      10;  // median over the map: in a sparser map a lonely point is nothing unusual
+};
+
+struct DenoiseSummary {
+  std::size_t n_moved = 0;
+  std::size_t n_dropped = 0;
+};
+
+/// Thins the bundle of points that many noisy views leave around each edge: a point moves onto the line
+/// through its neighbours (their weighted mean and principal direction: one step of moving least squares), so
+/// that a tracker's few hundred points know what all points of the map know. In a dense map points without
+/// neighbours are taken for outliers and left out. Keeps the order of points. Same map, same result.
+DenoiseSummary Denoise(const DenoiseSettings& settings, PointMap* map);
+
+}  // namespace evit

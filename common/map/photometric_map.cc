@@ -1,0 +1,78 @@
+#include "common/map/photometric_map.h"
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "common/map/map_formats.h"
+
+namespace evit {
+namespace {
+
+constexpr char kRemedy[] = "; make one with `evit map photometric`";
+
+}  // namespace
+
+PhotometricMap LoadPhotometricMap(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream stream;
+  if (!file || !(stream << file.rdbuf())) {
+    throw std::runtime_error(path + ": cannot be read, or is empty; a PLY with intensities is wanted" +
+                             kRemedy);
+  }
+  const std::string bytes = stream.str();
+  if (bytes.rfind("ply", 0) != 0) {
+    throw std::runtime_error(path + ": is no PLY; a photometric map is wanted here" + kRemedy);
+  }
+  PhotometricMap all, map;
+  std::string format;
+  try {
+    ReadPly(bytes, &all.points, &format, &all.intensities);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
+  if (all.intensities.size() != all.points.size()) {
+    throw std::runtime_error(path +
+                             ": its vertices have no property intensity: a map for photometric "
+                             "tracking needs it" +
+                             kRemedy);
+  }
+  for (std::size_t k = 0; k < all.points.size(); ++k) {
+    const float intensity = all.intensities[k];
+    if (!all.points[k].allFinite() || !std::isfinite(intensity)) continue;
+    if (intensity < 0 || intensity > 1) {
+      throw std::runtime_error(path + ": vertex " + std::to_string(k) + ": intensity is not 0..1" + kRemedy);
+    }
+    map.points.push_back(all.points[k]);
+    map.intensities.push_back(intensity);
+  }
+  if (map.points.empty()) throw std::runtime_error(path + ": the map is empty" + kRemedy);
+  return map;
+}
+
+void WritePhotometricMap(const std::string& path, const PhotometricMap& map) {
+  const std::string part = path + ".part";
+  std::ofstream file(part, std::ios::binary);
+  file << "ply\nformat binary_little_endian 1.0\ncomment photometric map of evit: metres, z up\nelement "
+          "vertex "
+       << map.points.size()
+       << "\nproperty float x\nproperty float y\nproperty float z\nproperty float intensity\nend_header\n";
+  std::vector<float> rows;
+  rows.reserve(4 * map.points.size());
+  for (std::size_t k = 0; k < map.points.size(); ++k) {
+    const Eigen::Vector3f& p = map.points[k];
+    rows.insert(rows.end(), {p.x(), p.y(), p.z(), map.intensities[k]});
+  }
+  file.write(reinterpret_cast<const char*>(rows.data()),
+             static_cast<std::streamsize>(rows.size() * sizeof(float)));
+  file.close();
+  if (!file || std::rename(part.c_str(), path.c_str()) != 0) {
+    std::remove(part.c_str());
+    throw std::runtime_error(path +
+                             ": cannot be written; check that the folder exists, is writable and has room");
+  }
+}
+
+}  // namespace evit

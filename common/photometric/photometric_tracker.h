@@ -1,0 +1,77 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/config/tracker.pb.h"
+#include "common/geometry/rig.h"
+#include "common/photometric/map_view.h"
+#include "common/photometric/photometric_term.h"
+#include "common/tracking/tracker.h"
+
+namespace evit {
+
+/// Signed event counts of one frame.
+struct PhotometricFrame {
+  Utime t = 0;  // us: the instant the pose is wanted for
+  std::int64_t seq = 0;
+  int n_events = 0;          // since the previous frame
+  Utime begin = 0, end = 0;  // us: events in (begin, end] are counted
+  cv::Mat counts;            // CV_8UC1, EventCounter's
+};
+
+/// EVPT, the paper's photometric baseline (Bryner et al. 2019): brightness changes foretold by the gradient
+/// of a photometric map, its depth and the camera's motion, against the events counted; over pose and
+/// velocity, frame by frame. Nothing of the IMU is used. Ours, beyond it: a map rendered at the prediction
+/// rather than key poses, coarse to fine, a robust kernel, and the speed, which two normalised images leave
+/// open, from the contrast threshold and the velocity before.
+class PhotometricTracker {
+ public:
+  /// `config` has its photometric part. `T_map_body`: pose at the first frame, to some centimetres and
+  /// degrees.
+  PhotometricTracker(const Rig& rig, const config::Tracker& config, const SE3& T_map_body);
+
+  /// Whatever it was doing: the body is here.
+  void StartAnew(const SE3& T_map_body);
+
+  /// The view that the next frame needs: from where the body is expected then.
+  ViewQuery NextQuery() const;
+  void SetView(MapView view) { view_ = std::move(view); }
+
+  /// Nodes: this frame's alone. Quality: inlier_share is the correlation of both images.
+  TrackerOutput Process(const PhotometricFrame& frame);
+
+  TrackerMode mode() const { return mode_; }
+  const BodyState& state() const { return state_; }
+  Utime state_time() const { return state_time_; }
+
+ private:
+  struct Solution {
+    SE3 pose;  // when its events were caused
+    Twist twist = Twist::Zero();
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    Matrix6d information = Matrix6d::Identity();  // on the pose
+    PhotometricQuality quality;
+    int iterations = 0;
+    double image_speed = 0;  // pixels/s
+  };
+  SE3 PoseAfter(const SE3& pose, double seconds) const;
+  Solution Solve(const PhotometricFrame& frame, const SE3& expected) const;
+  void MinimizeAt(const PhotometricScene& scene, const SE3& expected, const Twist& prior,
+                  Solution* solution) const;
+  void Accept(const PhotometricFrame& frame, double after_events, const Solution& solution,
+              TrackerOutput* out);
+  void Coast(const PhotometricFrame& frame, const SE3& predicted, const std::string& why, TrackerOutput* out);
+
+  Rig rig_;
+  config::Tracker config_;
+  MapView view_;
+  TrackerMode mode_ = TrackerMode::kBootstrapping;
+  std::string reason_ = "waiting for the first frame";
+  BodyState state_;                                 // velocity: of the body's origin, map frame
+  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s, map frame
+  double image_speed_ = 0;                          // pixels/s, 0: unknown
+  Utime state_time_ = 0, good_time_ = 0, last_interval_ = 0;
+};
+
+}  // namespace evit

@@ -1,0 +1,149 @@
+#include "common/photometric/photometric_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include "common/photometric/test_room.h"
+#include "common/photometric/view_renderer.h"
+
+namespace evit {
+namespace {
+
+constexpr double kThreshold = 0.25;
+
+config::Tracker Config() {
+  config::Tracker c;
+  c.set_method(config::Tracker::EVPT);
+  c.mutable_keyframes()->set_min_events(200);
+  c.mutable_surface()->set_lag_px(0);
+  c.mutable_points()->set_min_depth_m(0.1);
+  c.mutable_points()->set_max_depth_m(12);
+  config::Photometric* p = c.mutable_photometric();
+  p->set_contrast_threshold(kThreshold), p->set_view_margin(0.08), p->set_blur_sigma_px(1), p->set_levels(2);
+  p->set_max_points(3000), p->set_min_gradient(0.03), p->set_robust_scale(1.5), p->set_max_iterations(10);
+  p->set_sigma_position_m(0.05), p->set_sigma_rotation_rad(0.05), p->set_sigma_velocity(0.5);
+  p->set_sigma_rate(1), p->set_min_correlation(0.6), p->set_max_bad_s(0.2);
+  return c;
+}
+
+// Plays frame_builder and map_server in a synthetic room.
+struct Bench {
+  static constexpr Utime kInterval = 20'000;
+  test::Room room;
+  Rig rig;
+  ViewRenderer renderer{test::Room().Map(0.012), test::Room::kDark};
+  PhotometricTracker tracker;
+  std::int64_t seq = 0;
+  MapView before;
+
+  static Rig MakeRig() {
+    Rig rig;
+    rig.camera = test::EventCamera();
+    rig.T_body_camera = test::BodyCamera();
+    return rig;
+  }
+  explicit Bench(const SE3& start) : rig(MakeRig()), tracker(rig, Config(), start) {}
+
+  static SE3 Truth(Utime t) {
+    const double s = ToSeconds(t);
+    return {ExpSO3({0.5 + 0.1 * std::sin(2 * s), 0.12 * std::sin(1.7 * s), 0.15 * std::sin(1.4 * s)}),
+            0.1 * Eigen::Vector3d(std::sin(1.5 * s), std::sin(1.9 * s), std::sin(1.2 * s))};
+  }
+  TrackerOutput Step(Utime t) {
+    const auto see = [&](Utime at) { return room.See(rig.camera, Truth(at) * rig.T_body_camera); };
+    PhotometricFrame frame;
+    frame.t = t;
+    frame.seq = seq++;
+    frame.begin = t - kInterval / 2;
+    frame.end = t + kInterval / 2;
+    if (before.log_intensity.empty()) before = see(frame.begin);
+    MapView after = see(frame.end);
+    frame.counts = test::CountBetween(before, after, kThreshold);
+    before = std::move(after);
+    frame.n_events = cv::countNonZero(frame.counts != 128);
+    MapView view;
+    renderer.Render(tracker.NextQuery(), &view);
+    tracker.SetView(view);
+    return tracker.Process(frame);
+  }
+};
+
+TEST(PhotometricTracker, TracksASyntheticRoomFromARoughStart) {
+  Bench bench(Bench::Truth(1'000'000).Plus((Vector6d() << 0.02, -0.02, 0.015, 0.01, -0.01, 0.01).finished()));
+  TrackerOutput out;
+  double squares = 0, worst_angle = 0;
+  int n = 0;
+  for (Utime t = 1'000'000; t < 2'600'000; t += Bench::kInterval) {
+    out = bench.Step(t);
+    ASSERT_TRUE(out.has_pose) << t << " " << out.reason;
+    if (t < 1'200'000) continue;
+    const SE3 truth = Bench::Truth(t), got = out.nodes.back().state.T_world_body;
+    squares += (got.p - truth.p).squaredNorm();
+    worst_angle = std::max(worst_angle, AngularDistance(got.q, truth.q));
+    const Eigen::Vector3d velocity = (Bench::Truth(t + 1000).p - truth.p) / 1e-3;
+    EXPECT_LT((out.nodes.back().state.velocity - velocity).norm(), 0.15);
+    ++n;
+  }
+  EXPECT_LT(std::sqrt(squares / n), 0.008);
+  EXPECT_LT(worst_angle, 0.01);
+  EXPECT_EQ(out.mode, TrackerMode::kTracking);
+  EXPECT_GT(out.image_speed, 5);
+  EXPECT_GT(out.quality.inlier_share, 0.5);
+  EXPECT_GT(out.covariance.diagonal().minCoeff(), 0);
+}
+
+TEST(PhotometricTracker, TheSameInputGivesTheSameBits) {
+  std::vector<SE3> ends;
+  for (int run = 0; run < 2; ++run) {
+    Bench bench(Bench::Truth(1'000'000));
+    TrackerOutput out;
+    for (Utime t = 1'000'000; t < 1'200'000; t += Bench::kInterval) out = bench.Step(t);
+    ends.push_back(out.nodes.back().state.T_world_body);
+  }
+  EXPECT_EQ(ends[0].p, ends[1].p);
+  EXPECT_EQ(ends[0].q.coeffs(), ends[1].q.coeffs());
+}
+
+TEST(PhotometricTracker, SaysLostWhereTheMapForetellsNothingAndComesBackWithAHint) {
+  Bench bench(Bench::Truth(1'000'000));
+  Utime t = 1'000'000;
+  TrackerOutput out;
+  for (; t < 1'200'000; t += Bench::kInterval) out = bench.Step(t);
+  ASSERT_EQ(out.mode, TrackerMode::kTracking);
+  bench.room.phase = 2;  // other pictures on the walls
+  bench.before.log_intensity.clear();
+  bool coasted = false;
+  for (; t < 1'700'000; t += Bench::kInterval) {
+    out = bench.Step(t);
+    coasted |= out.mode == TrackerMode::kTracking && out.reason.rfind("coasting", 0) == 0;
+    if (out.mode == TrackerMode::kLost) break;
+  }
+  EXPECT_EQ(out.mode, TrackerMode::kLost);
+  EXPECT_FALSE(out.has_pose);
+  EXPECT_NE(out.reason.find("does not foretell the events"), std::string::npos) << out.reason;
+  EXPECT_TRUE(coasted);
+  bench.room.phase = 0;
+  bench.before.log_intensity.clear();
+  bench.tracker.StartAnew(Bench::Truth(t));
+  for (const Utime end = t + 200'000; t < end; t += Bench::kInterval) out = bench.Step(t);
+  EXPECT_EQ(out.mode, TrackerMode::kTracking);
+  EXPECT_LT((out.nodes.back().state.T_world_body.p - Bench::Truth(t - Bench::kInterval).p).norm(), 0.02);
+}
+
+TEST(PhotometricTracker, WithoutEventsItWaits) {
+  PhotometricTracker tracker(Bench::MakeRig(), Config(), {});
+  PhotometricFrame frame;
+  frame.t = frame.end = 1'000'000;
+  frame.counts = cv::Mat(240, 320, CV_8UC1, cv::Scalar(128));
+  TrackerOutput out = tracker.Process(frame);
+  EXPECT_EQ(out.mode, TrackerMode::kBootstrapping);
+  EXPECT_FALSE(out.has_pose);
+  frame.n_events = 50'000;  // but none that count, and no view
+  frame.begin = 990'000;
+  frame.t = frame.end = 1'010'000;
+  out = tracker.Process(frame);
+  EXPECT_EQ(out.mode, TrackerMode::kBootstrapping);
+  EXPECT_NE(out.reason, "");
+}
+
+}  // namespace
+}  // namespace evit

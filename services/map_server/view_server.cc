@@ -1,0 +1,63 @@
+#include "services/map_server/view_server.h"
+
+#include <chrono>
+#include <utility>
+
+#include "common/bus/codec.h"
+#include "common/photometric/wire/view_wire.h"
+
+namespace evit {
+namespace {
+
+constexpr std::size_t kMaxQueued = 4;  // views take 10 ms each: old answers help nobody
+constexpr int kMaxPixels = 640 * 512;  // a message of 1.3 MB, and the time to draw it
+
+}  // namespace
+
+ViewServer::ViewServer(Bus* bus, const Channels& channels, StatusReporter* status, const PhotometricMap& map)
+    : bus_(bus),
+      channel_(channels.map_view),
+      status_(status),
+      queries_(status, "VIEW_QUERY"),
+      dropped_(&status->Counter("VIEW_QUERY.dropped")),
+      renderer_(map) {
+  bus_->Subscribe(channels.view_query, [this](const std::string&, const std::uint8_t* data,
+                                              std::size_t size) { OnQuery(data, size); });
+  status_->Counter("photometric_map.points") = static_cast<std::int64_t>(renderer_.size());
+}
+
+void ViewServer::OnQuery(const std::uint8_t* data, std::size_t size) {
+  view_query_t message;
+  if (!DecodeChecked(data, size, &message) ||
+      std::int64_t{message.camera.width} * message.camera.height > kMaxPixels) {
+    queries_.CountInvalid();
+    return;
+  }
+  queries_.Accept(message.epoch, message.seq);  // one sent again is answered again
+  if (queue_.size() == kMaxQueued) {
+    queue_.pop_front();
+    ++*dropped_;
+  }
+  queue_.push_back(std::move(message));
+}
+
+void ViewServer::Tick() {
+  for (; !queue_.empty(); queue_.pop_front()) Answer(queue_.front());
+}
+
+void ViewServer::Answer(const view_query_t& message) {
+  const auto begin = std::chrono::steady_clock::now();
+  renderer_.Render(FromMessage(message), &view_);
+  status_->AddTiming(
+      "view", std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+  map_view_t answer = ToMessage(view_);
+  answer.utime = message.utime;
+  answer.seq = seq_++;
+  answer.epoch = status_->epoch();
+  answer.query_seq = message.seq;
+  answer.query_epoch = message.epoch;
+  EncodeTo(answer, &buffer_);
+  bus_->Publish(channel_, buffer_.data(), buffer_.size());
+}
+
+}  // namespace evit

@@ -1,0 +1,54 @@
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "tools/evit/commands.h"
+#include "tools/evit/options.h"
+#include "tools/paper/paper.h"
+
+namespace evit {
+namespace {
+
+// Real motions for simulations: EVIT_SHARED_DATA, or the folder beside the source tree.
+std::string SharedData() {
+  const char* named = std::getenv("EVIT_SHARED_DATA");
+  if (named != nullptr) return named;
+  const auto beside = std::filesystem::path(EVIT_PROJECT_DIR) / "../shared/data";
+  return std::filesystem::is_directory(beside) ? std::filesystem::canonical(beside).string() : "";
+}
+
+}  // namespace
+
+void AddPaperCommand(CLI::App* app) {
+  auto o = std::make_shared<PaperOptions>();
+  CLI::App* paper = app->add_subcommand("paper", "The paper's tables and figures, in one go");
+  paper->add_option("--out", o->out, "Folder for the results; what it holds already is not done again")
+      ->required();
+  paper->add_option("--vector", o->vector,
+                    "Folder of VECtor's files and maps; sequences that are not there are simulated");
+  paper->add_option("--config", o->config, "What to run (default: config/paper.textproto)");
+  paper->add_option(
+      "--only", o->only,
+      "Tables (I or normal, II or fast, III or motion_models), sequences and methods to run; the tables "
+      "still show all that is done");
+  paper->add_option("--seeds", o->seeds, "Rooms of each simulated sequence (default: the configuration's)")
+      ->check(CLI::Range(1, 99));
+  paper->add_flag("--quick", o->quick, "A try: one room, short clips");
+  paper->add_option("--jobs", o->jobs, "Simulations and runs at a time (default: 2)")
+      ->check(CLI::Range(1, 64));
+  paper->footer(
+      "Ctrl-C keeps all that is finished; the same command goes on from there. A simulation or run is done "
+      "anew only\n"
+      "when its inputs, its settings or the program changed. DIR/work may be deleted at any time.\n"
+      "Exit code: 0 all done, 1 something failed, 130 interrupted.");
+  paper->callback([o] {
+    if (o->config.empty()) o->config = ConfigFile("paper.textproto");
+    o->programs = std::filesystem::read_symlink("/proc/self/exe").parent_path().string();
+    o->shared_data = SharedData();
+    const int code = MakePaper(*o, CommandLineOfThis(), EVIT_PROJECT_DIR);
+    if (code != 0) throw CLI::RuntimeError(code);
+  });
+}
+
+}  // namespace evit

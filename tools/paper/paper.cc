@@ -1,0 +1,61 @@
+#include "tools/paper/paper.h"
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+
+#include "tools/paper/figures.h"
+#include "tools/paper/index.h"
+#include "tools/paper/job.h"
+#include "tools/paper/table.h"
+#include "tools/paper/text_files.h"
+#include "tools/progress.h"
+
+namespace evit {
+namespace {
+
+volatile std::sig_atomic_t g_interrupted = 0;
+void OnSignal(int /*signal*/) { g_interrupted = 1; }
+
+}  // namespace
+
+int MakePaper(const PaperOptions& options, const std::string& command, const std::string& source_tree) {
+  const auto begin = std::chrono::steady_clock::now();
+  const PaperPlan plan = MakePlan(options);
+  MakeFolder(options.out + "/work");
+  struct sigaction action = {};
+  action.sa_handler = OnSignal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+
+  IndexFacts facts;
+  {
+    ProgressBar bar("paper");
+    facts.outcome = RunJobs(
+        JobsOf(plan), options.jobs, options.programs,
+        [&](double share, const std::string& note) { bar.Show(share, note); },
+        [] { return g_interrupted != 0; });
+  }
+  for (const auto& failure : facts.outcome.failures)
+    std::fprintf(stderr, "evit paper: %s failed: %s\n", failure.id.c_str(), failure.words.c_str());
+
+  const PaperResults results = CollectResults(plan);
+  WriteTables(options.out + "/tables", plan.config, results);
+  const std::vector<Figure> figures = DrawFigures(options.out + "/figures", plan);
+  facts.command = command;
+  facts.commit = DescribeCommit(source_tree);
+  facts.machine = DescribeMachine();
+  facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  WriteText(options.out + "/index.md", IndexText(plan, results, figures, facts));
+  for (const PaperTable table : kPaperTables) {
+    const TextTable text = PaperLayout(plan.config, results, table, kAlignments.front());
+    if (!text.rows.empty())
+      std::printf("%s\n\n%s\n", TableTitle(table, kAlignments.front()).c_str(), text.Markdown().c_str());
+  }
+  std::printf("%zu jobs done, %zu kept, %zu failed; everything is in %s/index.md\n", facts.outcome.done,
+              facts.outcome.kept, facts.outcome.failures.size(), options.out.c_str());
+  if (facts.outcome.interrupted) return 130;
+  return facts.outcome.failures.empty() ? 0 : 1;
+}
+
+}  // namespace evit

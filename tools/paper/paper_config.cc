@@ -1,0 +1,123 @@
+#include "tools/paper/paper_config.h"
+
+#include <google/protobuf/text_format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "common/config/config.h"
+#include "common/config/text_file.h"
+
+namespace evit {
+namespace {
+
+void Require(bool condition, const std::string& path, const std::string& what) {
+  if (!condition) throw ConfigError(path + ": " + what);
+}
+
+bool IsFileName(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  });
+}
+
+std::string Beside(const std::string& file, const std::string& path) {
+  return (std::filesystem::absolute(file).parent_path() / path).lexically_normal().string();
+}
+
+bool Same(const paper::Method& a, const paper::Method& b) {
+  return a.config() == b.config() && a.has_fixed_rate_hz() == b.has_fixed_rate_hz() &&
+         a.fixed_rate_hz() == b.fixed_rate_hz() && a.has_motion_model() == b.has_motion_model() &&
+         a.motion_model() == b.motion_model();
+}
+
+template <typename Methods>
+void CheckMethods(const std::string& path, const Methods& methods, const std::string& field) {
+  std::set<std::string> ids;
+  for (const paper::Method& m : methods) {
+    Require(IsFileName(m.id()), path,
+            field + ".id: \"" + m.id() + "\" is no file name: letters, digits, _ and - are wanted");
+    Require(ids.insert(m.id()).second, path, field + ".id: \"" + m.id() + "\" is there twice");
+    Require(!m.has_fixed_rate_hz() || (m.fixed_rate_hz() >= 0 && m.fixed_rate_hz() <= 2000), path,
+            field + " " + m.id() + ": fixed_rate_hz: 0 to 2000 are wanted");
+    Require(!m.has_motion_model() || (m.motion_model() >= 0 && m.motion_model() <= 2), path,
+            field + " " + m.id() + ": motion_model: 0, 1 or 2 is wanted");
+  }
+}
+
+void CheckSequence(const std::string& path, const paper::Sequence& s) {
+  const std::string where = "sequence " + s.name() + ": ";
+  Require(IsFileName(s.name()), path,
+          "sequence.name: \"" + s.name() + "\" is no file name: letters, digits, _ and - are wanted");
+  Require(s.has_begin_s() == s.has_end_s(), path,
+          where + "begin_s and end_s: either both are wanted or none (the whole sequence)");
+  Require(!s.has_begin_s() || (s.begin_s() >= 0 && s.end_s() > s.begin_s()), path,
+          where + "begin_s, end_s: 0 <= begin_s < end_s is wanted");
+  Require(s.t_map_world_size() == 0 || s.t_map_world_size() == 16, path,
+          where + "T_map_world: 16 numbers are wanted (4x4, row-major), got " +
+              std::to_string(s.t_map_world_size()));
+  Require(s.simulated().recorded_begin_s() >= 0, path,
+          where + "simulated.recorded_begin_s: must not be negative");
+}
+
+}  // namespace
+
+paper::Paper LoadPaper(const std::string& path) {
+  paper::Paper config;
+  ParseTextFile(path, "tools/paper/paper.proto", &config);
+  for (const double s : {config.simulated_s(), config.quick_s()}) {
+    Require(s >= 2 && s <= 600, path, "simulated_s, quick_s: 2 to 600 s are wanted");
+  }
+  Require(config.seeds() >= 1 && config.seeds() <= 99, path, "seeds: 1 to 99 are wanted");
+  Require(config.method_size() > 0 && config.sequence_size() > 0, path,
+          "one method and one sequence at least are wanted");
+  config.set_rig(Beside(path, config.rig()));
+  for (paper::Method& m : *config.mutable_method()) m.set_config(Beside(path, m.config()));
+  for (paper::Method& m : *config.mutable_motion_model()) m.set_config(Beside(path, m.config()));
+  CheckMethods(path, config.method(), "method");
+  CheckMethods(path, config.motion_model(), "motion_model");
+  for (const paper::Method& a : config.method()) {
+    for (const paper::Method& b : config.motion_model()) {
+      Require(a.id() != b.id() || Same(a, b), path,
+              "motion_model " + b.id() + ": differs from the method of that id; give it another");
+    }
+  }
+  std::set<std::string> names;
+  for (const paper::Sequence& s : config.sequence()) {
+    CheckSequence(path, s);
+    Require(names.insert(s.name()).second, path, "sequence " + s.name() + ": is there twice");
+  }
+  Require(names.count(config.figure_sequence()) == 1, path,
+          "figure_sequence: there is no sequence \"" + config.figure_sequence() + "\"");
+  const auto methods = AllMethods(config);
+  Require(std::any_of(methods.begin(), methods.end(),
+                      [&](const paper::Method& m) { return m.id() == config.figure_method(); }),
+          path, "figure_method: there is no method \"" + config.figure_method() + "\"");
+  return config;
+}
+
+std::vector<paper::Method> AllMethods(const paper::Paper& config) {
+  std::vector<paper::Method> all(config.method().begin(), config.method().end());
+  for (const paper::Method& m : config.motion_model()) {
+    const bool known = std::any_of(all.begin(), all.end(), [&](const auto& a) { return a.id() == m.id(); });
+    if (!known) all.push_back(m);
+  }
+  return all;
+}
+
+bool IsPhotometric(const paper::Method& method) {
+  return config::Tracker::Method_Name(LoadTracker(method.config()).method()) == "EVPT";
+}
+
+std::string TrackerText(const paper::Method& method) {
+  config::Tracker tracker = LoadTracker(method.config());
+  if (method.has_fixed_rate_hz()) tracker.mutable_keyframes()->set_fixed_rate_hz(method.fixed_rate_hz());
+  if (method.has_motion_model()) tracker.mutable_window()->set_motion_model(method.motion_model());
+  std::string text;
+  google::protobuf::TextFormat::PrintToString(tracker, &text);
+  return text;
+}
+
+}  // namespace evit

@@ -1,0 +1,81 @@
+#include "tools/paper/paper_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/config/config.h"
+#include "tools/paper/test_paper.h"
+#include "tools/paper/text_files.h"
+
+namespace evit {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+class PaperConfig : public ::testing::Test {
+ protected:
+  // The shipped configuration with one text in place of another.
+  std::string Changed(const std::string& from, const std::string& to) {
+    std::string text = ReadText(EVIT_SOURCE_DIR "/config/paper.textproto");
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return folder_.Write("paper.textproto", text.replace(at, from.size(), to));
+  }
+  void ExpectError(const std::string& from, const std::string& to, const std::string& what) {
+    const std::string path = Changed(from, to);
+    EXPECT_THAT([&] { LoadPaper(path); }, ThrowsMessage<ConfigError>(AllOf(HasSubstr(path), HasSubstr(what))))
+        << to;
+  }
+  TestFolder folder_{"paper_config"};
+};
+
+TEST_F(PaperConfig, ShippedOneHasThePapersSequencesAndMethods) {
+  const paper::Paper config = ShippedPaper();
+  ASSERT_EQ(config.sequence_size(), 6);
+  EXPECT_EQ(config.sequence(0).name(), "sofa_normal");
+  EXPECT_GE(config.method_size(), 4);
+  EXPECT_EQ(config.motion_model_size(), 3);
+  for (const paper::Method& m : AllMethods(config)) EXPECT_FALSE(TrackerText(m).empty()) << m.id();
+  EXPECT_EQ(AllMethods(config).size(), static_cast<std::size_t>(config.method_size()) + 2)
+      << "evit is in both lists";
+}
+
+TEST_F(PaperConfig, ErrorsNameFileAndKey) {
+  ExpectError("seeds: 3", "seedz: 3", "seedz");
+  ExpectError("seeds: 3", "", "seeds");
+  ExpectError("seeds: 3", "seeds: 0", "seeds: 1 to 99");
+  ExpectError("simulated_s: 10", "simulated_s: 1", "simulated_s");
+  ExpectError("id: \"evt100\"", "id: \"evt300\"", "\"evt300\" is there twice");
+  ExpectError("id: \"evt100\"", "id: \"evt/100\"", "no file name");
+  ExpectError("fixed_rate_hz: 100", "fixed_rate_hz: 5000", "fixed_rate_hz");
+  ExpectError("motion_model: 1", "motion_model: 3", "motion_model: 0, 1 or 2");
+  ExpectError("name: \"sofa_normal\"", "name: \"robot_normal\"", "sequence robot_normal: is there twice");
+  ExpectError("figure_sequence: \"sofa_fast\"", "figure_sequence: \"nowhere\"", "nowhere");
+  ExpectError("scene: \"sofa\"", "scene: \"sofa\" begin_s: 3", "begin_s and end_s");
+  ExpectError("scene: \"sofa\"", "scene: \"sofa\" begin_s: 3 end_s: 2", "begin_s < end_s");
+  ExpectError("scene: \"sofa\"", "scene: \"sofa\" T_map_world: [1, 2]", "16 numbers");
+  ExpectError("id: \"evit\" name: \"second-order\"", "id: \"evt30\" name: \"second-order\"",
+              "differs from the method of that id");
+}
+
+TEST_F(PaperConfig, MethodsChangeOnlyWhatTheySay) {
+  paper::Method method;
+  method.set_config(EVIT_SOURCE_DIR "/config/tracker.textproto");
+  const std::string plain = TrackerText(method);
+  method.set_fixed_rate_hz(30);
+  method.set_motion_model(1);
+  const std::string path = folder_.Write("changed.textproto", TrackerText(method));
+  const config::Tracker changed = LoadTracker(path);
+  EXPECT_EQ(changed.keyframes().fixed_rate_hz(), 30);
+  EXPECT_EQ(changed.window().motion_model(), 1);
+  config::Tracker back = changed;
+  back.mutable_keyframes()->set_fixed_rate_hz(0);
+  back.mutable_window()->set_motion_model(2);
+  EXPECT_EQ(back.SerializeAsString(), LoadTracker(method.config()).SerializeAsString());
+  EXPECT_NE(plain, TrackerText(method));
+}
+
+}  // namespace
+}  // namespace evit

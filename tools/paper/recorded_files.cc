@@ -1,0 +1,87 @@
+// Where a sequence of VECtor lies in a user's folder.
+#include <filesystem>
+#include <stdexcept>
+
+#include "tools/paper/recording.h"
+
+namespace evit {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string FindMap(const std::string& folder, const paper::Sequence& sequence) {
+  if (sequence.has_map()) {
+    const std::string path = (fs::path(folder) / sequence.map()).string();
+    if (fs::exists(path)) return path;
+    throw std::runtime_error(path + ": there is no such map; see `map` of sequence " + sequence.name() +
+                             " in the configuration");
+  }
+  for (const char* end : {".pcd", ".ply", ".txt"}) {
+    const std::string path = (fs::path(folder) / (sequence.scene() + end)).string();
+    if (fs::exists(path)) return path;
+  }
+  throw std::runtime_error(folder + ": holds " + sequence.name() +
+                           " but no map of its scene: " + sequence.scene() +
+                           ".pcd, .ply or .txt is wanted (z up, metres), or `map` in the configuration");
+}
+
+std::string FindPhotometricMap(const std::string& folder, const paper::Sequence& sequence) {
+  const std::string name =
+      sequence.has_photometric_map() ? sequence.photometric_map() : sequence.scene() + "_photometric.ply";
+  const std::string path = (fs::path(folder) / name).string();
+  if (fs::exists(path)) return path;
+  if (!sequence.has_photometric_map()) return "";
+  throw std::runtime_error(path + ": there is no such map; see `photometric_map` of sequence " +
+                           sequence.name() + " in the configuration");
+}
+
+std::vector<std::string> FindBags(const fs::path& folder, const std::string& name) {
+  const auto bag = [&](const std::string& end) { return (folder / (name + end + ".bag")).string(); };
+  for (const char* stem : {"1.synced.", "1."}) {
+    const std::string events = bag(std::string(stem) + "left_event");
+    if (!fs::exists(events)) continue;
+    std::vector<std::string> bags{events};
+    for (const char* other : {"imu", "gt"}) {
+      const std::string path = bag(std::string(stem) + other);
+      if (fs::exists(path)) bags.push_back(path);
+    }
+    return bags;
+  }
+  for (const char* end : {"", "1", "1.synced"}) {
+    if (fs::exists(bag(end))) return {bag(end)};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<RecordedFiles> FindRecorded(const std::string& folder, const paper::Sequence& sequence) {
+  if (!fs::is_directory(folder)) throw std::runtime_error(folder + ": there is no such folder");
+  RecordedFiles files;
+  for (const std::string& bag : sequence.bag()) {
+    files.bags.push_back((fs::path(folder) / bag).string());
+    if (!fs::exists(files.bags.back())) {
+      throw std::runtime_error(files.bags.back() + ": there is no such bag; see `bag` of sequence " +
+                               sequence.name() + " in the configuration");
+    }
+  }
+  for (const fs::path& place : {fs::path(folder), fs::path(folder) / sequence.name()}) {
+    if (!files.bags.empty()) break;
+    const std::string base = (place / (sequence.name() + "1.synced.")).string();
+    if (fs::exists(base + "left_event.hdf5")) {
+      for (const char* other : {"imu.txt", "gt.txt"}) {
+        if (!fs::exists(base + other))
+          throw std::runtime_error(base + other + ": is missing beside the events; tables need it");
+      }
+      files.folder = place.string();
+      break;
+    }
+    files.bags = FindBags(place, sequence.name());
+  }
+  if (files.folder.empty() && files.bags.empty()) return {};
+  files.map = FindMap(folder, sequence);
+  files.photometric_map = FindPhotometricMap(folder, sequence);
+  return files;
+}
+
+}  // namespace evit

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "common/time/utime.h"
+
+namespace evit {
+
+/// The lamp: ambient light falls to `share` from `off` to `on` (us of the sequence's clock), each over a
+/// ramp.
+struct Lamp {
+  Utime off = 0, on = 0;  // equal: never off
+  double share = 0.35;
+  Utime ramp = 30'000;  // us
+
+  double Factor(Utime t) const;
+};
+
+/// Something before the lens: no light at all from `from` to `to` (us of the sequence's clock). It comes in
+/// the `ramp` before and goes in the `ramp` after, slowly where it is nearly dark: log intensity changes
+/// evenly.
+struct Cover {
+  Utime from = 0, to = 0;  // equal: never covered
+  Utime ramp = 100'000;    // us
+
+  double Factor(Utime t) const;
+};
+
+}  // namespace evit
