@@ -127,7 +127,8 @@ class Tracker {
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s: newest gyro reading less its bias
   int bad_frames_ = 0;                              // high-rate frames in a row that did not fit
   Utime aligned_at_ = 0;                            // newest keyframe whose events the map lay on
-  Eigen::Matrix<double, 6, 6> common_ = Eigen::Matrix<double, 6, 6>::Zero();  // CommonCovariance of the newest aligned keyframe
+  Eigen::Matrix<double, 6, 6> common_ =
+      Eigen::Matrix<double, 6, 6>::Zero();  // CommonCovariance of the newest aligned keyframe
   double point_share_ = 1;
 
   struct LocalizedFrame {  // high-rate frame kept until the window takes over
