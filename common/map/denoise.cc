@@ -21,7 +21,7 @@ class Neighbours {
     std::sort(cells_.begin(), cells_.end());
   }
 
-  /// Calls visit(point, squared distance) for all within the radius of `p`, itself included.
+  /// Calls visit(point, squared distance) for all within the radius of `p`; of a crowd for an even part.
   template <typename Visit>
   void ForEach(const Eigen::Vector3f& p, Visit visit) const {
     const std::array<std::int64_t, 3> at = Cell(p);
@@ -30,8 +30,12 @@ class Neighbours {
         // Three cells along z follow each other.
         const std::uint64_t first = Key({at[0] + x, at[1] + y, at[2] - 1}),
                             last = Key({at[0] + x, at[1] + y, at[2] + 1});
-        auto it = std::lower_bound(cells_.begin(), cells_.end(), std::make_pair(first, std::size_t{0}));
-        for (; it != cells_.end() && it->first <= last; ++it) {
+        const auto begin =
+            std::lower_bound(cells_.begin(), cells_.end(), std::make_pair(first, std::size_t{0}));
+        const auto end = std::lower_bound(begin, cells_.end(), std::make_pair(last + 1, std::size_t{0}));
+        // A crowd is asked in part: the time must not grow with its square.
+        const auto step = 1 + (end - begin) / kCrowd;
+        for (auto it = begin; it < end; it += std::min(step, end - it)) {
           const float d2 = (points_[it->second] - p).squaredNorm();
           if (d2 <= radius2_) visit(points_[it->second], d2);
         }
@@ -40,9 +44,13 @@ class Neighbours {
   }
 
  private:
+  static constexpr std::ptrdiff_t kCrowd = 96;  // points in three cells
+
   std::array<std::int64_t, 3> Cell(const Eigen::Vector3f& p) const {
+    constexpr double kFarthest = (1 << 20) - 2;  // cells from the origin: beyond, points share the last one
     std::array<std::int64_t, 3> cell{};
-    for (int k = 0; k < 3; ++k) cell[k] = static_cast<std::int64_t>(std::floor(p[k] * inverse_));
+    for (int k = 0; k < 3; ++k)
+      cell[k] = static_cast<std::int64_t>(std::floor(std::clamp(p[k] * inverse_, -kFarthest, kFarthest)));
     return cell;
   }
   // 21 bits each, the sign moved out of the way: neighbours along z have neighbouring keys.
@@ -73,6 +81,7 @@ Eigen::Vector3f OntoLine(const Neighbours& neighbours, const Eigen::Vector3f& p,
     square += w * d * d.transpose();
     ++*n;
   });
+  if (weight <= 0) return p;  // in a crowd it may not have been asked itself
   mean /= weight;
   const Eigen::Matrix3d covariance = square / weight - mean * mean.transpose();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
