@@ -21,7 +21,8 @@ class Neighbours {
     std::sort(cells_.begin(), cells_.end());
   }
 
-  /// Calls visit(point, squared distance) for all within the radius of `p`; of a crowd for an even part.
+  /// Calls visit(index, point, squared distance, how many it stands for) for all within the radius of `p`; of
+  /// a crowd for an even part.
   template <typename Visit>
   void ForEach(const Eigen::Vector3f& p, Visit visit) const {
     const std::array<std::int64_t, 3> at = Cell(p);
@@ -37,7 +38,7 @@ class Neighbours {
         const auto step = 1 + (end - begin) / kCrowd;
         for (auto it = begin; it < end; it += std::min(step, end - it)) {
           const float d2 = (points_[it->second] - p).squaredNorm();
-          if (d2 <= radius2_) visit(points_[it->second], d2);
+          if (d2 <= radius2_) visit(it->second, points_[it->second], d2, step);
         }
       }
     }
@@ -67,21 +68,22 @@ class Neighbours {
   std::vector<std::pair<std::uint64_t, std::size_t>> cells_;
 };
 
-Eigen::Vector3f OntoLine(const Neighbours& neighbours, const Eigen::Vector3f& p, double sigma, int* n) {
+Eigen::Vector3f OntoLine(const Neighbours& neighbours, const Eigen::Vector3f& p, std::size_t self,
+                         double sigma, std::int64_t* n) {
   // Relative to p: single precision loses nothing where the map is large.
-  double weight = 0;
+  double weight = 1;  // of p itself
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
-  *n = 0;
-  neighbours.ForEach(p, [&](const Eigen::Vector3f& q, float d2) {
-    const double w = std::exp(-0.5 * d2 / (sigma * sigma));
+  *n = 1;
+  neighbours.ForEach(p, [&](std::size_t i, const Eigen::Vector3f& q, float d2, std::ptrdiff_t count) {
+    if (i == self) return;
+    const double w = static_cast<double>(count) * std::exp(-0.5 * d2 / (sigma * sigma));
     const Eigen::Vector3d d = (q - p).cast<double>();
     weight += w;
     mean += w * d;
     square += w * d * d.transpose();
-    ++*n;
+    *n += count;
   });
-  if (weight <= 0) return p;  // in a crowd it may not have been asked itself
   mean /= weight;
   const Eigen::Matrix3d covariance = square / weight - mean * mean.transpose();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -97,13 +99,13 @@ DenoiseSummary Denoise(const DenoiseSettings& settings, PointMap* map) {
   if (map->points.empty() || settings.radius <= 0) return summary;
   const Neighbours neighbours(map->points, settings.radius);
   std::vector<Eigen::Vector3f> moved(map->points.size());
-  std::vector<int> n(map->points.size());
+  std::vector<std::int64_t> n(map->points.size());
   for (std::size_t i = 0; i < moved.size(); ++i)
-    moved[i] = OntoLine(neighbours, map->points[i], settings.radius / 2, &n[i]);
-  std::vector<int> sorted = n;
+    moved[i] = OntoLine(neighbours, map->points[i], i, settings.radius / 2, &n[i]);
+  std::vector<std::int64_t> sorted = n;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
                    sorted.end());
-  const bool dense = sorted[sorted.size() / 2] >= settings.min_usual_neighbours;
+  const bool dense = static_cast<double>(sorted[sorted.size() / 2]) >= settings.min_usual_neighbours;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < moved.size(); ++i) {
     const bool vouched = n[i] >= settings.min_neighbours;

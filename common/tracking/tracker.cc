@@ -50,7 +50,7 @@ void Tracker::StartFrom(const BodyState& state) {
   state_ = state;
   anchor_ = state.T_world_body;
   anchor_velocity_ = state.velocity;
-  reckoned_ = 0;
+  reckoned_ = state.velocity.isZero() ? kNoReckoning : 0;
   reason_ = "going on from a checkpoint";
 }
 
@@ -78,7 +78,7 @@ void Tracker::SetMode(TrackerMode mode, std::string reason) {
 void Tracker::Restart(const SE3& T_map_body, const Eigen::Vector3d& velocity, std::string reason) {
   state_.T_world_body = anchor_ = T_map_body;
   state_.velocity = anchor_velocity_ = velocity;
-  reckoned_ = 0;
+  reckoned_ = velocity.isZero() ? kNoReckoning : 0;
   frames_.clear();
   bad_frames_ = 0;
   SetMode(TrackerMode::kBootstrapping, std::move(reason));

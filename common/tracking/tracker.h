@@ -58,7 +58,6 @@ class Tracker {
   /// Whatever it was doing: the body is here, to some centimetres and degrees.
   void StartAnew(const SE3& T_map_body) {
     Restart(T_map_body, Eigen::Vector3d::Zero(), "starting anew from a pose hint");
-    reckoned_ = kNoReckoning;
   }
   /// Goes on tracking where another tracker was after its keyframe of time `t`, as if it were that one:
   /// `information` is TrackerOutput's. The next keyframe must follow that one.
@@ -108,6 +107,7 @@ class Tracker {
   VisibilityQuery QueryFrom(const SE3& T_map_body) const;
   static bool Aligned(const AlignmentQuality& quality, double min_contrast);
   void SetMode(TrackerMode mode, std::string reason);
+  /// Velocity zero: unknown.
   void Restart(const SE3& T_map_body, const Eigen::Vector3d& velocity, std::string reason);
   void Finish(const AlignmentPoints& points, TrackerOutput* out) const;
 

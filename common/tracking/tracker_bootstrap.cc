@@ -100,8 +100,10 @@ void Tracker::MoveAnchor(const std::vector<ImuSample>& samples) {
   constexpr Utime kLongest = 1'500'000;  // us: by then the position may be decimetres off
   const NavState moved = PropagateImu({anchor_, anchor_velocity_}, samples, state_.bias, rig_.gravity);
   anchor_.q = moved.T_world_body.q;
-  if (reckoned_ >= kLongest) {
+  // A velocity no body has comes from a reading that is none.
+  if (reckoned_ >= kLongest || !(moved.velocity.norm() <= config_.failure().max_speed())) {
     anchor_velocity_.setZero();
+    reckoned_ = kNoReckoning;
     return;
   }
   anchor_.p = moved.T_world_body.p;

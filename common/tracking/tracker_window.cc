@@ -53,8 +53,9 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
                       state_.bias.gyro.norm() <= config_.failure().max_gyro_bias() &&
                       state_.bias.accel.norm() <= config_.failure().max_accel_bias();
     if (!sane) state_.bias = {};
-    Restart(state_.T_world_body, sane ? state_.velocity : Eigen::Vector3d::Zero(), "");
-    if (!sane) reckoned_ = kNoReckoning;
+    // Where it has diverged, the prediction from the state before is the better place to look.
+    Restart(sane ? state_.T_world_body : before.back().T_world_body,
+            sane ? state_.velocity : Eigen::Vector3d::Zero(), "");
     SetMode(TrackerMode::kLost, trouble);
     return;
   }

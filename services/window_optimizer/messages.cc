@@ -30,9 +30,11 @@ KeyframeInput FromMessage(const keyframe_t& m) {
 }
 
 void Absorb(const keyframe_t& before, keyframe_t* after) {
-  if (before.epoch != after->epoch || before.utime != after->previous_utime || before.n_imu < 2 ||
-      after->n_imu < 2)
-    return;
+  constexpr int kMost = 4000;  // samples, 20 s at 200 Hz: beyond it nothing could be made of them
+  const bool neighbours = before.epoch == after->epoch && before.utime == after->previous_utime &&
+                          before.n_imu >= 2 && after->n_imu >= 2 &&
+                          before.imu_utime.back() == after->imu_utime.front();
+  if (!neighbours || before.n_imu + after->n_imu > kMost) return;
   after->previous_utime = before.previous_utime;
   after->n_events += std::min(before.n_events, std::numeric_limits<std::int32_t>::max() - after->n_events);
   after->imu_gap_us = std::max(after->imu_gap_us, before.imu_gap_us);

@@ -46,5 +46,15 @@ TEST(Messages, OnlyNeighboursAreJoined) {
   }
 }
 
+TEST(Messages, WhatIsPassedOnHasABound) {
+  keyframe_t all = Keyframe(0, 20'000);
+  for (std::int64_t t = 20'000; t < 60'000'000; t += 20'000) {
+    keyframe_t next = Keyframe(t, t + 20'000);
+    Absorb(all, &next);
+    all = std::move(next);
+    ASSERT_LE(all.n_imu, 4000);
+  }
+}
+
 }  // namespace
 }  // namespace evit

@@ -158,7 +158,9 @@ void PhotometricOptimizer::ProcessQueue() {
   const auto begin = Clock::now();
   const TrackerOutput output = tracker_.Process(FrameOf(next.message));
   const double solve_ms = Milliseconds(Clock::now() - begin);
-  AskForView();  // its answer is on the way while this one is reported
+  // The answer is on the way while this one is reported. One that is still awaited is not given up: where
+  // views take longer than frames there would never be any.
+  if (answered_) AskForView();
   Report(output, next, solve_ms);
 }
 

@@ -93,6 +93,13 @@ void WindowOptimizer::OnKeyframe(const std::uint8_t* data, std::size_t size) {
     keyframes_.CountInvalid();
     return;
   }
+  if (message.encoding != keyframe_t::TIME_SURFACE) {
+    keyframes_.CountInvalid();
+    status_.SetState("failed",
+                     "keyframes hold event counts, not time surfaces: start frame_builder and "
+                     "window_optimizer with the same --config");
+    return;
+  }
   if (message.width != settings_.rig.camera.width || message.height != settings_.rig.camera.height) {
     keyframes_.CountInvalid();
     status_.SetState("failed",
@@ -183,6 +190,7 @@ void WindowOptimizer::TakeHint() {
   tracker_.StartAnew(*hint_);
   hint_.reset();
   checkpoint_.reset();
+  catch_up_.reset();
   live_time_ = 0;
   AskForPoints(tracker_.NextQuery());
 }
