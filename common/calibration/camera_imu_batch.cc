@@ -10,6 +10,7 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "common/calibration/camera_pose_factor.h"
@@ -142,8 +143,10 @@ bool CameraImuBatch::SolveOnce(const CameraImuPrior& prior, const PoseNoise& noi
   std::vector<Preintegration> terms(n);
   std::array<double, 7> extrinsic = ToBlocks({values_.T_body_camera, Eigen::Vector3d::Zero(), {}}).pose;
   Eigen::Vector2d tilt = values_.tilt;
-  ceres::Problem problem;
-  ceres::LossFunction* loss = robust ? new ceres::CauchyLoss(kCauchy) : nullptr;
+  const std::unique_ptr<ceres::LossFunction> loss(robust ? new ceres::CauchyLoss(kCauchy) : nullptr);
+  ceres::Problem::Options ownership;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
   const double w_p = noise.position * std::sqrt(noise.position_correlation),
                w_r = noise.rotation * std::sqrt(noise.rotation_correlation);
   auto* manifold = new PoseManifold;
@@ -152,7 +155,7 @@ bool CameraImuBatch::SolveOnce(const CameraImuPrior& prior, const PoseNoise& noi
     StateBlocks& b = states_[k];
     problem.AddParameterBlock(b.pose.data(), 7, manifold);
     const Utime t = camera_[k].t + values_.offset;
-    problem.AddResidualBlock(new CameraPoseFactor(camera_[k].pose, imu_->At(t).gyro, w_p, w_r), loss,
+    problem.AddResidualBlock(new CameraPoseFactor(camera_[k].pose, imu_->At(t).gyro, w_p, w_r), loss.get(),
                              b.pose.data(), b.motion.data(), extrinsic.data(), tilt.data(), late);
     if (k == 0) continue;
     StateBlocks& a = states_[k - 1];
