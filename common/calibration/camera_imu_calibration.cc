@@ -116,7 +116,9 @@ CameraImuCalibration CalibrateCameraImu(const Trajectory& camera, const std::vec
   for (StampedPose& s : stamped) s.t += rig.camera_time_offset;
   const Trajectory poses = Thin(stamped, track);
   if (poses.size() < kFewestPoses || ToSeconds(poses.back().t - poses.front().t) < kShortest) {
-    return Failed(result, "the camera was tracked for less than 3 s of the IMU's time");
+    return Failed(result,
+                  "the camera was tracked for less than 3 s of the IMU's time: record 10 to 30 s of motion "
+                  "that turns about two axes");
   }
   result.seconds = ToSeconds(poses.back().t - poses.front().t);
   const RateAlignment rates = AlignRates(stamped, track, kMaxOffset);

@@ -33,7 +33,17 @@ void ViewServer::OnQuery(const std::uint8_t* data, std::size_t size) {
     queries_.CountInvalid();
     return;
   }
-  queries_.Accept(message.epoch, message.seq);  // one sent again is answered again
+  queries_.Accept(message.epoch, message.seq);
+  const std::pair<std::int64_t, std::int64_t> number(message.epoch, message.seq);
+  // Sent again because a view takes long: it is drawn once, and its answer is sent again where that may have
+  // been lost.
+  for (const view_query_t& waiting : queue_) {
+    if (number == std::make_pair(waiting.epoch, waiting.seq)) return;
+  }
+  if (number == answered_) {
+    bus_->Publish(channel_, buffer_.data(), buffer_.size());
+    return;
+  }
   if (queue_.size() == kMaxQueued) {
     queue_.pop_front();
     ++*dropped_;
@@ -57,6 +67,7 @@ void ViewServer::Answer(const view_query_t& message) {
   answer.query_seq = message.seq;
   answer.query_epoch = message.epoch;
   EncodeTo(answer, &buffer_);
+  answered_ = {message.epoch, message.seq};
   bus_->Publish(channel_, buffer_.data(), buffer_.size());
 }
 

@@ -36,6 +36,8 @@ class ViewServer {
   std::deque<view_query_t> queue_;
   MapView view_;
   std::int64_t seq_ = 0;
+  std::pair<std::int64_t, std::int64_t> answered_{
+      -1, -1};  // epoch and number of the query whose answer is in buffer_
   std::vector<std::uint8_t> buffer_;
 };
 

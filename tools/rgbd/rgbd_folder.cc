@@ -51,6 +51,9 @@ SE3 PoseOf(const std::vector<double>& row, const std::string& path, std::size_t 
 
 RgbdFolder::RgbdFolder(const std::string& path) : path_(path) {
   std::error_code error;
+  if (!fs::is_directory(path, error))
+    throw std::runtime_error(path +
+                             ": no such folder; one of images/, depth/, poses.txt and K.txt is wanted");
   for (const auto& entry : fs::directory_iterator(path + "/images", error)) {
     if (entry.is_regular_file()) names_.push_back(entry.path().filename().string());
   }

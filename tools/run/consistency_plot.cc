@@ -1,5 +1,6 @@
 #include "tools/run/consistency_plot.h"
 
+#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
@@ -18,7 +19,8 @@ const char* const kNames[6] = {"position x (map)",  "position y (map)",  "positi
 
 void PlotConsistency(const std::string& path, const std::string& title, const Consistency& consistency) {
   cv::Mat image(1130, 1500, CV_8UC3, cv::Scalar(255, 255, 255));
-  DrawText(&image, title, {750, 36}, 0.46, Anchor::kCenter, {20, 20, 20}, 1);
+  DrawText(&image, title, {750, 36}, std::min(0.46, 75.0 / static_cast<double>(title.size() + 1)),
+           Anchor::kCenter, {20, 20, 20}, 1);
   const auto& errors = consistency.errors;
   const Utime t0 = errors.empty() ? 0 : errors.front().t;
   for (int k = 0; k < 6; ++k) {

@@ -97,6 +97,11 @@ RunInputs PrepareRun(const RunJob& job) {
     throw std::runtime_error(job.config +
                              ": method EVPT needs a photometric map: give --photometric-map FILE");
   }
+  if (!photometric && !job.photometric_map.empty()) {
+    throw std::runtime_error(job.config +
+                             ": only method EVPT uses a photometric map: leave --photometric-map out, or "
+                             "give --config config/evpt.textproto");
+  }
   if (!photometric && job.map.empty()) {
     throw std::runtime_error("--map is required: the semi-dense map that this method tracks against");
   }
