@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "tools/simulation/scene.h"
+#include "tools/simulation/vector_code.h"
 
 namespace evit {
 
@@ -18,6 +19,13 @@ inline float ApproximateLog2(float x) {
   const float exponent = static_cast<float>(static_cast<int>(bits.i >> 23) - 127);
   bits.i = (bits.i & 0x7FFFFFU) | 0x3F800000U;
   const float m = bits.f - 1;
+  return exponent + m * (1.3465F - 0.3465F * m);
+}
+
+inline Floats ApproximateLog2(Floats x) {
+  const Ints bits = reinterpret_cast<Ints>(x);
+  const Floats exponent = __builtin_convertvector((bits >> 23) - 127, Floats);
+  const Floats m = reinterpret_cast<Floats>((bits & 0x7FFFFF) | 0x3F800000) - 1;
   return exponent + m * (1.3465F - 0.3465F * m);
 }
 

@@ -1,32 +1,12 @@
 #include "tools/simulation/renderer.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 
 #include "tools/simulation/screen_span.h"
 #include "tools/simulation/vector_code.h"
 
 namespace evit {
-namespace {
-
-constexpr int kSamples = 16;
-
-// One sample in each of 16 columns and each of 16 rows of the pixel (as rooks on a board), spread over 4 x 4
-// cells: an upright or level edge sweeps them one by one.
-std::array<std::array<float, kSamples>, 2> SampleOffsets() {
-  std::array<std::array<float, kSamples>, 2> offsets{};
-  for (int i = 0; i < kSamples; ++i) {
-    const int column = i / 4, row = i % 4;
-    offsets[0][i] = (static_cast<float>(4 * column + row) + 0.5F) / kSamples - 0.5F;
-    offsets[1][i] = (static_cast<float>(4 * row + column) + 0.5F) / kSamples - 0.5F;
-  }
-  return offsets;
-}
-
-}  // namespace
-
 Renderer::Renderer(const Camera& camera, const Scene& scene)
     : camera_(camera), scene_(scene), focal_(static_cast<float>(0.5 * (camera.fx + camera.fy))) {
   const std::size_t n = static_cast<std::size_t>(camera.width) * camera.height;
@@ -123,107 +103,27 @@ void Renderer::Shade(const std::vector<PlacedSurface>& placed, View* view) const
   }
 }
 
-// As PlacedSurface::Shade, in blocks: what has no branches first, as vector code.
-EVIT_VECTOR_CODE void Renderer::ShadePlane(const PlacedSurface& p, std::size_t begin, std::size_t end,
-                                           View* view) const {
-  constexpr std::size_t kBlock = 64;
-  std::array<float, kBlock> u, v, lod;
+// As PlacedSurface::Shade, four at a time; the last ones repeat the last pixel.
+void Renderer::ShadePlane(const PlacedSurface& p, std::size_t begin, std::size_t end, View* view) const {
   const Texture& texture = *p.surface->texture;
-  const auto width = static_cast<float>(texture.width()), height = static_cast<float>(texture.height());
-  const float gain = p.surface->gain;
-  for (; begin < end; begin += kBlock) {
-    const std::size_t n = std::min(kBlock, end - begin);
-    const float *rx = ray_x_.data() + begin, *ry = ray_y_.data() + begin;
-    const float* inverse_depth = view->inverse_depth.data() + begin;
-    for (std::size_t i = 0; i < n; ++i) {
-      const float z = 1 / inverse_depth[i];
-      u[i] = (p.s.x() * rx[i] + p.s.y() * ry[i] + p.s.z()) * z * width;
-      v[i] = (p.t.x() * rx[i] + p.t.y() * ry[i] + p.t.z()) * z * height;
-      lod[i] = p.lod_offset + 1.6F * ApproximateLog2(z);
-    }
-    float* image = view->image.data() + begin;
-    for (std::size_t i = 0; i < n; ++i) image[i] = gain * texture.Sample(u[i], v[i], lod[i]);
+  const Eigen::Vector3f s = p.s * static_cast<float>(texture.width());
+  const Eigen::Vector3f t = p.t * static_cast<float>(texture.height());
+  const float gain = p.surface->gain, lod_offset = p.lod_offset;
+  const float *rx = ray_x_.data(), *ry = ray_y_.data(), *w = view->inverse_depth.data();
+  for (std::size_t i = begin; i < end; i += 4) {
+    const std::size_t i1 = std::min(i + 1, end - 1), i2 = std::min(i + 2, end - 1),
+                      i3 = std::min(i + 3, end - 1);
+    const Floats x{rx[i], rx[i1], rx[i2], rx[i3]}, y{ry[i], ry[i1], ry[i2], ry[i3]};
+    const Floats z = 1 / Floats{w[i], w[i1], w[i2], w[i3]};
+    const Floats value =
+        gain * texture.Sample((s.x() * x + s.y() * y + s.z()) * z, (t.x() * x + t.y() * y + t.z()) * z,
+                              lod_offset + 1.6F * ApproximateLog2(z));
+    float* image = view->image.data();
+    image[i] = value[0];
+    image[i1] = value[1];
+    image[i2] = value[2];
+    image[i3] = value[3];
   }
-}
-
-void Renderer::Smooth(const std::vector<PlacedSurface>& placed, View* view) const {
-  const int width = camera_.width, height = camera_.height;
-  for (int y = 1; y + 1 < height; ++y) {
-    const std::int32_t* row = view->surface.data() + static_cast<std::size_t>(y) * width;
-    for (int x = 1; x + 1 < width; ++x) {
-      const std::int32_t* c = row + x;
-      if (*c == c[-1] && *c == c[1] && *c == c[-width] && *c == c[width]) continue;
-      std::array<std::int32_t, 9> ids{};
-      int n_ids = 0;
-      for (const int dy : {-width, 0, width}) {
-        for (const int dx : {-1, 0, 1}) {
-          const std::int32_t id = c[dy + dx];
-          if (id >= 0 && std::find(ids.begin(), ids.begin() + n_ids, id) == ids.begin() + n_ids) {
-            ids[n_ids++] = id;
-          }
-        }
-      }
-      float& pixel = view->image[static_cast<std::size_t>(y) * width + x];
-      pixel = SmoothPixel(placed, ids.data(), n_ids, x, y, pixel);
-    }
-  }
-}
-
-EVIT_VECTOR_CODE float Renderer::SmoothPixel(const std::vector<PlacedSurface>& placed,
-                                             const std::int32_t* ids, int n_ids, int x, int y,
-                                             float fallback) const {
-  static const auto kOffsets = SampleOffsets();
-  const std::size_t i = static_cast<std::size_t>(y) * camera_.width + x;
-  const float dxx = 0.5F * (ray_x_[i + 1] - ray_x_[i - 1]), dyx = 0.5F * (ray_y_[i + 1] - ray_y_[i - 1]);
-  const float dxy = 0.5F * (ray_x_[i + camera_.width] - ray_x_[i - camera_.width]);
-  const float dyy = 0.5F * (ray_y_[i + camera_.width] - ray_y_[i - camera_.width]);
-  if (!(std::isfinite(dxx + dyx + dxy + dyy))) return fallback;
-  std::array<float, kSamples> rx, ry, depth{};
-  std::array<std::int32_t, kSamples> winner;
-  winner.fill(-1);
-  for (int k = 0; k < kSamples; ++k) {
-    rx[k] = ray_x_[i] + kOffsets[0][k] * dxx + kOffsets[1][k] * dxy;
-    ry[k] = ray_y_[i] + kOffsets[0][k] * dyx + kOffsets[1][k] * dyy;
-  }
-  for (int j = 0; j < n_ids; ++j) {
-    const PlacedSurface& p = placed[ids[j]];
-    const bool rectangle = p.surface->kind == Surface::Kind::kRectangle;
-    for (int k = 0; k < kSamples; ++k) {
-      float iw = 0;
-      if (rectangle) {
-        iw = p.w.x() * rx[k] + p.w.y() * ry[k] + p.w.z();
-        const float u = p.s.x() * rx[k] + p.s.y() * ry[k] + p.s.z();
-        const float v = p.t.x() * rx[k] + p.t.y() * ry[k] + p.t.z();
-        iw = ((u >= 0) & (u <= iw) & (v >= 0) & (v <= iw)) ? iw : 0;
-      } else {
-        iw = p.Meet(rx[k], ry[k]);
-      }
-      const bool nearer = iw > depth[k];
-      depth[k] = nearer ? iw : depth[k];
-      winner[k] = nearer ? j : winner[k];
-    }
-  }
-  // Each surface is shaded once, in the middle of its samples.
-  float sum = 0;
-  int covered = 0;
-  for (int j = 0; j < n_ids; ++j) {
-    std::uint32_t mine = 0;  // bit k: sample k is of this surface
-    for (int k = 0; k < kSamples; ++k) mine |= static_cast<std::uint32_t>(winner[k] == j) << k;
-    float mean_x = 0, mean_y = 0, mean_depth = 0;
-    int count = 0;
-    for (; mine != 0; mine &= mine - 1, ++count) {
-      const int k = __builtin_ctz(mine);
-      mean_x += rx[k];
-      mean_y += ry[k];
-      mean_depth += depth[k];
-    }
-    if (count == 0) continue;
-    const float share = 1.0F / static_cast<float>(count);
-    sum +=
-        static_cast<float>(count) * placed[ids[j]].Shade(mean_x * share, mean_y * share, mean_depth * share);
-    covered += count;
-  }
-  return covered > 0 ? sum / static_cast<float>(covered) : fallback;
 }
 
 }  // namespace evit

@@ -13,8 +13,10 @@ Texture::Texture(const cv::Mat& picture, float texel_size, bool smooth) : texel_
     level.height = image.rows;
     level.scale_s = static_cast<float>(image.cols) / static_cast<float>(picture.cols);
     level.scale_t = static_cast<float>(image.rows) / static_cast<float>(picture.rows);
-    for (int y = 0; y < image.rows; ++y) {
-      level.data.insert(level.data.end(), image.ptr<float>(y), image.ptr<float>(y) + image.cols);
+    for (int y = 0; y <= image.rows; ++y) {
+      const float* row = image.ptr<float>(std::min(y, image.rows - 1));
+      level.data.insert(level.data.end(), row, row + image.cols);
+      level.data.push_back(row[image.cols - 1]);
     }
     levels_.push_back(std::move(level));
     if (smooth || (image.cols == 1 && image.rows == 1)) break;
