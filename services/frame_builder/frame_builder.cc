@@ -109,7 +109,7 @@ void FrameBuilder::Send(Keyframe keyframe) {
   const auto begin = Clock::now();
   keyframe_t message = ToMessage(std::move(keyframe));
   message.epoch = status_.epoch();
-  Sent sent{message.seq, {}};
+  Sent sent{message.seq, {}, false};
   if (recent_.size() >= kRecent) {
     sent.bytes = std::move(recent_.front().bytes);  // its memory
     recent_.pop_front();
@@ -117,11 +117,20 @@ void FrameBuilder::Send(Keyframe keyframe) {
   EncodeTo(message, &sent.bytes);
   moved_ = Clock::now();
   status_.AddTiming("encode", std::chrono::duration<double, std::milli>(moved_ - begin).count());
-  bus_->Publish(channels_.keyframe, sent.bytes.data(), sent.bytes.size());
   last_sent_ = sent.seq;
   recent_.push_back(std::move(sent));
-  ++status_.Counter("KEYFRAME.sent");
+  if (wanted_.empty()) {
+    Publish(&recent_.back());
+  } else {
+    wanted_.push_back(last_sent_);  // behind those that are sent again: it would leave a hole before it
+  }
   status_.Counter("last_keyframe_seq") = last_sent_;
+}
+
+void FrameBuilder::Publish(Sent* sent) {
+  bus_->Publish(channels_.keyframe, sent->bytes.data(), sent->bytes.size());
+  ++status_.Counter(sent->before ? "KEYFRAME.sent_again" : "KEYFRAME.sent");
+  sent->before = true;
 }
 
 void FrameBuilder::OnMode(const std::uint8_t* data, std::size_t size) {
@@ -142,8 +151,10 @@ void FrameBuilder::OnMode(const std::uint8_t* data, std::size_t size) {
     builder_.SetFeedbackFor(-1, ToFeedback(message));
     return;
   }
-  if (!settings_.lossless && heard_before && verdict == SequenceCounter::Verdict::kNewEpoch) {
-    wanted_.clear();
+  // A restarted optimiser says which it had, again and again until it has heard of those since.
+  if (verdict == SequenceCounter::Verdict::kNewEpoch)
+    resumed_after_ = heard_before ? message.keyframe_seq : -1;
+  if (!settings_.lossless && message.keyframe_seq == resumed_after_ && wanted_.empty()) {
     for (const Sent& sent : recent_) {
       if (sent.seq > message.keyframe_seq) wanted_.push_back(sent.seq);
     }
@@ -172,10 +183,7 @@ void FrameBuilder::SendAgain() {
       Clock::now() - moved_ < settings_.send_again) {
     return;
   }
-  for (const Sent& sent : recent_) {  // the optimiser takes them in exact order only
-    bus_->Publish(channels_.keyframe, sent.bytes.data(), sent.bytes.size());
-    ++status_.Counter("KEYFRAME.sent_again");
-  }
+  for (Sent& sent : recent_) Publish(&sent);  // the optimiser takes them in exact order only
   sent_again_ = Clock::now();
 }
 
@@ -184,10 +192,8 @@ void FrameBuilder::SendHeld() {
   if (wanted_.empty()) return;
   const std::int64_t seq = wanted_.front();
   wanted_.pop_front();
-  for (const Sent& sent : recent_) {
-    if (sent.seq != seq) continue;
-    bus_->Publish(channels_.keyframe, sent.bytes.data(), sent.bytes.size());
-    ++status_.Counter("KEYFRAME.sent_again");
+  for (Sent& sent : recent_) {
+    if (sent.seq == seq) Publish(&sent);
   }
 }
 

@@ -46,7 +46,13 @@ class FrameBuilder : public Service {
   void OnEnd(const std::uint8_t* data, std::size_t size);
   void Work();
   void Feed(const StreamInbox::Item& item);
+  struct Sent {
+    std::int64_t seq;
+    std::vector<std::uint8_t> bytes;
+    bool before;  // sent already
+  };
   void Send(Keyframe keyframe);
+  void Publish(Sent* sent);
   void SendAgain();
   void SendHeld();
   void ReportState();
@@ -62,12 +68,9 @@ class FrameBuilder : public Service {
   KeyframeBuilder builder_;
   EventArray events_;
 
-  struct Sent {
-    std::int64_t seq;
-    std::vector<std::uint8_t> bytes;
-  };
   std::deque<Sent> recent_;          // keyframes without an answer; real time: the newest ones
-  std::deque<std::int64_t> wanted_;  // numbers of those that a restarted optimiser needs again
+  std::deque<std::int64_t> wanted_;  // numbers of those to send next, first what a restarted optimiser lacks
+  std::int64_t resumed_after_ = -1;  // the last keyframe it had
   std::int64_t last_sent_ = -1, last_answered_ = -1;
   Clock::time_point moved_ = Clock::now();  // last keyframe sent, or answer heard
   Clock::time_point sent_again_;

@@ -93,9 +93,8 @@ EVIT_VECTOR_CODE void Renderer::Smooth(const std::vector<PlacedSurface>& placed,
   }
 }
 
-float Renderer::SmoothPixel(const std::vector<PlacedSurface>& placed,
-                                             const std::int32_t* ids, int n_ids, int x, int y,
-                                             float fallback) const {
+float Renderer::SmoothPixel(const std::vector<PlacedSurface>& placed, const std::int32_t* ids, int n_ids,
+                            int x, int y, float fallback) const {
   const std::size_t i = static_cast<std::size_t>(y) * camera_.width + x;
   const float dxx = 0.5F * (ray_x_[i + 1] - ray_x_[i - 1]), dyx = 0.5F * (ray_y_[i + 1] - ray_y_[i - 1]);
   const float dxy = 0.5F * (ray_x_[i + camera_.width] - ray_x_[i - camera_.width]);
