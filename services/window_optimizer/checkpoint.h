@@ -13,10 +13,12 @@ struct Checkpoint {
   Utime t = 0;                                         // us: of the keyframe
   std::int64_t keyframe_epoch = 0, keyframe_seq = -1;  // which one it was
   BodyState state;
-  Matrix15d information = Matrix15d::Zero();       // of that state
+  Matrix15d information = Matrix15d::Zero();       // of that state; zero while bootstrapping
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();  // rad/s, body frame
   double image_speed = 0;                          // pixels/s, see tracker_mode_t
 
+  /// Or else it was bootstrapping.
+  bool tracking() const { return !information.isZero(0); }
   /// The state `dt` us later at constant velocity and rate.
   BodyState After(Utime dt) const;
 };

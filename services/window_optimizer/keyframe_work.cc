@@ -19,7 +19,9 @@ double Milliseconds(std::chrono::steady_clock::duration d) {
 bool WindowOptimizer::ReadyForNext() const {
   if (answered_) return true;
   // Without any answer yet there are no points at all: waiting is the only sensible thing.
-  return !settings_.lossless && last_mode_.keyframe_seq >= 0 && Clock::now() - first_asked_ > kAnswerPatience;
+  if (settings_.lossless || last_mode_.keyframe_seq < 0) return false;
+  // Waiting again for a map_server that has died would cost keyframes.
+  return map_is_silent_ || Clock::now() - first_asked_ > kAnswerPatience;
 }
 
 void WindowOptimizer::ProcessQueue() {
@@ -115,13 +117,13 @@ void WindowOptimizer::Report(const TrackerOutput& output, const keyframe_t& keyf
   last_mode_.keyframe_epoch = keyframe.epoch;
   last_mode_.keyframe_stride = governor_.keyframe_stride();
   Send(channels_.tracker_mode, &last_mode_, &mode_seq_);
+  if (checkpoint_file_ && output.has_pose) {
+    checkpoint_file_->Store({keyframe.utime, keyframe.epoch, keyframe.seq, state, output.information,
+                             tracker_.rate(), output.image_speed});
+  }
   if (!settings_.lossless && output.mode == TrackerMode::kTracking) {
     live_ = {state.T_world_body, state.velocity};
     live_bias_ = state.bias;
-    if (checkpoint_file_) {
-      checkpoint_file_->Store({keyframe.utime, keyframe.epoch, keyframe.seq, state, output.information,
-                               tracker_.rate(), output.image_speed});
-    }
     live_time_ = keyframe.utime;
   } else {
     live_time_ = 0;

@@ -15,7 +15,7 @@ constexpr auto kAnnounceAgain = std::chrono::milliseconds(50);
 // again.
 void WindowOptimizer::AnnounceCheckpoint() {
   TrackerOutput output;
-  output.mode = TrackerMode::kTracking;
+  output.mode = checkpoint_->tracking() ? TrackerMode::kTracking : TrackerMode::kBootstrapping;
   output.reason = "restarted: waiting for the keyframes since the checkpoint";
   output.image_speed = checkpoint_->image_speed;
   tracker_mode_t message =
@@ -35,7 +35,8 @@ void WindowOptimizer::CatchUp() {
   std::vector<keyframe_t> keyframes = catch_up_->Take();
   catch_up_.reset();
   if (verdict == KeyframeCatchUp::Verdict::kWhole) {
-    tracker_.Resume(checkpoint_->t, checkpoint_->state, checkpoint_->information);
+    if (checkpoint_->tracking())
+      tracker_.Resume(checkpoint_->t, checkpoint_->state, checkpoint_->information);
     caught_up_ = keyframes.back().seq;
     checkpoint_.reset();
     ++status_.Counter("checkpoint.resumed");

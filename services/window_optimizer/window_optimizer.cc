@@ -56,6 +56,7 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
 void WindowOptimizer::AskForPoints(const VisibilityQuery& query) {
   query_ = ToMessage(query);
   query_.utime = tracker_.state_time();
+  map_is_silent_ = !answered_;
   answered_ = false;
   first_asked_ = asked_ = Clock::now();
   Send(channels_.map_query, &query_, &query_seq_);
@@ -76,6 +77,7 @@ void WindowOptimizer::OnMapPoints(const std::uint8_t* data, std::size_t size) {
     return;
   }
   ++status_.Counter("MAP_POINTS.received");
+  map_is_silent_ = false;
   if (answered_ || message.query_epoch != query_.epoch || message.query_seq != query_.seq) return;
   answered_ = true;
   status_.AddTiming("map_answer", Milliseconds(Clock::now() - first_asked_));
@@ -119,6 +121,7 @@ void WindowOptimizer::OnKeyframe(const std::uint8_t* data, std::size_t size) {
     return;
   }
   keyframes_.Accept(message.epoch, message.seq);
+  if (verdict == SequenceCounter::Verdict::kNewEpoch) caught_up_ = -1;
   if (verdict == SequenceCounter::Verdict::kOld) {
     // Sent again because our answer got lost: answer again.
     if (last_mode_.keyframe_seq >= 0) Send(channels_.tracker_mode, &last_mode_, &mode_seq_);

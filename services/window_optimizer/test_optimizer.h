@@ -1,0 +1,190 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/bus/codec.h"
+#include "common/bus/lcm_bus.h"
+#include "common/config/config.h"
+#include "common/tracking/synthetic_scene.h"
+#include "services/window_optimizer/window_optimizer.h"
+
+namespace evit::test {
+
+/// Plays frame_builder and map_server over the in-memory bus, where every message is delivered, and keeps what
+/// the service says.
+class WindowOptimizerTest : public ::testing::Test {
+ protected:
+  void Start(bool lossless) {
+    service_bus_ = OpenMemoryBus(hub_);
+    bus_ = OpenMemoryBus(hub_);
+    Keep<window_state_t>(channels_.window_state, &windows_);
+    Keep<tracker_mode_t>(channels_.tracker_mode, &modes_);
+    Keep<body_pose_t>(channels_.body_pose, &poses_);
+    Keep<service_status_t>(channels_.status, &statuses_);
+    bus_->Subscribe(channels_.map_query,
+                    [this](const std::string&, const std::uint8_t* data, std::size_t size) {
+                      map_query_t query;
+                      ASSERT_TRUE(DecodeChecked(data, size, &query));
+                      ++queries_;
+                      if (map_server_up_) Answer(query);
+                    });
+    WindowOptimizer::Settings& settings = settings_;
+    settings.rig.camera = synthetic::VgaCamera();
+    settings.rig.T_body_camera = synthetic::BodyCamera();
+    settings.rig.imu_noise = {7e-4, 1.3e-3, 7e-6, 6e-5};
+    settings.tracker = LoadTracker(std::string(EVIT_SOURCE_DIR) + "/config/tracker.textproto");
+    settings.T_map_body = motion_.State(1.0).T_world_body;
+    settings.lossless = lossless;
+    service_ = std::make_unique<WindowOptimizer>(service_bus_.get(), channels_, settings);
+    Pump();
+  }
+
+  // As if killed and started again: nobody called Stop().
+  void StartAgain() {
+    service_bus_ = OpenMemoryBus(hub_);
+    service_ = std::make_unique<WindowOptimizer>(service_bus_.get(), channels_, settings_);
+    Pump();
+  }
+
+  void WithCheckpoint() {
+    settings_.checkpoint = ::testing::TempDir() + "evit_optimizer_" + std::to_string(::getpid());
+    std::remove(settings_.checkpoint.c_str());
+  }
+  void TearDown() override {
+    if (!settings_.checkpoint.empty()) std::remove(settings_.checkpoint.c_str());
+  }
+
+  template <typename Message>
+  void Keep(const std::string& channel, std::vector<Message>* list) {
+    bus_->Subscribe(channel, [list](const std::string&, const std::uint8_t* data, std::size_t size) {
+      Message message;
+      ASSERT_TRUE(DecodeChecked(data, size, &message));
+      list->push_back(message);
+    });
+  }
+
+  template <typename Message>
+  void Send(const std::string& channel, const Message& message) {
+    std::vector<std::uint8_t> bytes;
+    EncodeTo(message, &bytes);
+    bus_->Publish(channel, bytes.data(), bytes.size());
+  }
+
+  void Pump() {
+    // In real time keyframes are worked on meanwhile.
+    for (int k = 0; k < 6 || (service_->busy() && map_server_up_ && k < 2000); ++k) {
+      service_bus_->Poll(0);
+      service_->Tick();
+      bus_->Poll(0);
+      if (k >= 6) std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+  }
+
+  void Answer(const map_query_t& query) {
+    map_points_t answer{};
+    answer.query_seq = query.seq;
+    answer.query_epoch = query.epoch;
+    answer.epoch = 5;
+    answer.seq = answers_++;
+    for (std::size_t k = 0; k < room_.size(); ++k) {
+      answer.xyz.push_back({room_[k].x(), room_[k].y(), room_[k].z()});
+      answer.id.push_back(static_cast<std::int32_t>(k));
+    }
+    answer.n = answer.n_visible = static_cast<std::int32_t>(room_.size());
+    answer.map_size = answer.n;
+    Send(channels_.map_points, answer);
+  }
+
+  keyframe_t Keyframe(Utime t) {
+    keyframe_t k{};
+    k.utime = t;
+    k.previous_utime = last_ > 0 ? last_ : t;
+    k.seq = keyframe_seq_++;
+    k.epoch = 77;
+    k.n_events = 20000;
+    k.decay_us = 5000;
+    k.width = 640;
+    k.height = 480;
+    k.n_surfaces = 1;
+    k.surface_size = 640 * 480;
+    const cv::Mat image = synthetic::DrawSurface(alignment_, room_, motion_.State(ToSeconds(t)).T_world_body);
+    k.surface.assign(1, std::vector<std::uint8_t>(image.datastart, image.dataend));
+    for (const ImuSample& s : motion_.Samples(k.previous_utime, t, {})) {
+      k.imu_utime.push_back(s.t);
+      k.gyro.push_back({s.gyro.x(), s.gyro.y(), s.gyro.z()});
+      k.accel.push_back({s.accel.x(), s.accel.y(), s.accel.z()});
+    }
+    k.n_imu = static_cast<std::int32_t>(k.imu_utime.size());
+    k.imu_gap_us = 5000;
+    k.imu.begin_utime = k.previous_utime;
+    k.imu.end_utime = t;
+    k.imu.gamma[3] = 1;
+    last_ = t;
+    return k;
+  }
+
+  // Keyframes until the service tracks; returns the stamp of the last one.
+  Utime UntilTracking() {
+    Utime t = 1'000'000;
+    while (t < 3'000'000 && (modes_.empty() || modes_.back().mode != tracker_mode_t::TRACKING)) {
+      Send(channels_.keyframe, Keyframe(t));
+      Pump();
+      t += 10'000;
+    }
+    return last_;
+  }
+
+  void SendImu(Utime begin, Utime end) {
+    std::int64_t seq = 0;
+    for (Utime t = begin; t <= end; t += 5'000) {
+      const ImuSample s = motion_.Imu(t, {});
+      imu_batch_t m{};
+      m.utime = t;
+      m.seq = seq++;
+      m.epoch = 3;
+      m.n = 1;
+      m.sample_utime = {t};
+      m.gyro = {{s.gyro.x(), s.gyro.y(), s.gyro.z()}};
+      m.accel = {{s.accel.x(), s.accel.y(), s.accel.z()}};
+      Send(channels_.imu, m);
+    }
+    Pump();
+  }
+
+  std::int64_t Counter(const std::string& name) {
+    service_->Stop();  // sends STATUS at once
+    Pump();
+    const auto& status = statuses_.back();
+    for (int k = 0; k < status.n_counters; ++k) {
+      if (status.counter_name[k] == name) return status.counter_value[k];
+    }
+    return 0;
+  }
+
+  WindowOptimizer::Settings settings_;
+  synthetic::Motion motion_;
+  std::vector<Eigen::Vector3f> room_ = synthetic::RoomPoints();
+  AlignmentSettings alignment_ = synthetic::Alignment();
+  std::shared_ptr<MemoryHub> hub_ = MakeMemoryHub();
+  Channels channels_;
+  std::unique_ptr<Bus> service_bus_, bus_;
+  std::unique_ptr<WindowOptimizer> service_;
+  std::vector<window_state_t> windows_;
+  std::vector<tracker_mode_t> modes_;
+  std::vector<body_pose_t> poses_;
+  std::vector<service_status_t> statuses_;
+  Utime last_ = 0;
+  std::int64_t keyframe_seq_ = 0, answers_ = 0;
+  int queries_ = 0;
+  bool map_server_up_ = true;
+};
+
+}  // namespace evit::test
