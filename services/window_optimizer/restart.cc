@@ -8,6 +8,7 @@ namespace evit {
 namespace {
 
 constexpr auto kAnnounceAgain = std::chrono::milliseconds(50);
+constexpr std::int64_t kStillComing = 12;  // keyframes sent again, or meanwhile, behind the first one
 
 }  // namespace
 
@@ -37,7 +38,7 @@ void WindowOptimizer::CatchUp() {
   if (verdict == KeyframeCatchUp::Verdict::kWhole) {
     if (checkpoint_->tracking())
       tracker_.Resume(checkpoint_->t, checkpoint_->state, checkpoint_->information);
-    caught_up_ = keyframes.back().seq;
+    caught_up_ = keyframes.back().seq + kStillComing;
     checkpoint_.reset();
     ++status_.Counter("checkpoint.resumed");
     status_.Counter("checkpoint.keyframes_again") += static_cast<std::int64_t>(keyframes.size());

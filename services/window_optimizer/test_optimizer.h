@@ -18,8 +18,8 @@
 
 namespace evit::test {
 
-/// Plays frame_builder and map_server over the in-memory bus, where every message is delivered, and keeps what
-/// the service says.
+/// Plays frame_builder and map_server over the in-memory bus, where every message is delivered, and keeps
+/// what the service says.
 class WindowOptimizerTest : public ::testing::Test {
  protected:
   void Start(bool lossless) {

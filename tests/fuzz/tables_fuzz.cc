@@ -1,6 +1,8 @@
-// Text tables: VECtor's IMU file, trajectories (TUM), RPG's four files. The first byte chooses.
+// Text tables: VECtor's IMU file, trajectories (TUM) and their covariances, RPG's four files. The first byte
+// chooses.
 #include <stdexcept>
 
+#include "common/evaluation/covariance_file.h"
 #include "common/evaluation/trajectory.h"
 #include "tests/fuzz/temporary_file.h"
 #include "tools/rpg/rpg_events.h"
@@ -27,6 +29,9 @@ void Read(int table, const std::string& path) {
     case 4:
       evit::ReadRpgCamera(path, 240, 180);
       break;
+    case 6:
+      evit::ReadCovariances(path);
+      break;
     default: {
       evit::RpgEvents reader(path, 240, 180);
       evit::EventArray events;
@@ -42,7 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   try {
     const evit::fuzz::TemporaryFile file(data + 1, size - 1);
-    Read(data[0] % 6, file.path());
+    Read(data[0] % 7, file.path());
   } catch (const std::runtime_error&) {
   }
   return 0;
