@@ -46,6 +46,15 @@ std::string ReadAll(const std::string& path) {
   return text.str();
 }
 
+// Sanitized services are several times slower than real time allows.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kSlower = 5;
+const std::string kRealTime = "--realtime --speed 0.2";
+#else
+constexpr int kSlower = 1;
+const std::string kRealTime = "--realtime";
+#endif
+
 class WholeSystemTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -57,10 +66,10 @@ class WholeSystemTest : public ::testing::Test {
   std::string Path(const std::string& name) const { return (folder_ / name).string(); }
   // Kills a service twice in a run of 3 s.
   void KillInRealTime(const std::string& service) {
-    const std::string command = RunCommand("out", "--realtime");
+    const std::string command = RunCommand("out", kRealTime);
     std::thread killer([&] {
       for (int k = 0; k < 2; ++k) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1300));
+        std::this_thread::sleep_for(kSlower * std::chrono::milliseconds(1300));
         Kill(service);
       }
     });
@@ -133,7 +142,7 @@ TEST_F(WholeSystemTest, TracksTheSampleLogBitIdenticallyEveryTime) {
 }
 
 TEST_F(WholeSystemTest, TracksInRealTime) {
-  const Result result = Shell(RunCommand("live", "--realtime"));
+  const Result result = Shell(RunCommand("live", kRealTime));
   ASSERT_EQ(result.code, 0) << result.output;
   ExpectGood(Path("live/trajectory.tum"), 0.02, 0.8);
 }
@@ -154,8 +163,8 @@ TEST_F(WholeSystemTest, SurvivesItsMapServer) {
 }
 
 TEST_F(WholeSystemTest, ARunCanBeLookedAtAndCommanded) {
-  std::thread run([&] { EXPECT_EQ(Shell(RunCommand("out", "--realtime")).code, 0); });
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  std::thread run([&] { EXPECT_EQ(Shell(RunCommand("out", kRealTime)).code, 0); });
+  std::this_thread::sleep_for(kSlower * std::chrono::milliseconds(700));
   const std::string evit = "XDG_RUNTIME_DIR=" + folder_.string() + " " + kEvit + " ";
   const Result ps = Shell(evit + "ps");
   EXPECT_EQ(ps.code, 0);

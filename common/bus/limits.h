@@ -15,6 +15,6 @@ constexpr std::int32_t kMaxMapPoints = 1'000'000;  // in one answer
 constexpr std::int32_t kMaxWindowNodes = 1000;
 constexpr std::int32_t kMaxStatusEntries = 1000;
 constexpr std::int64_t kMaxTime = std::int64_t{1} << 60;      // us, either sign: differences never overflow
-constexpr std::int64_t kMaxSequence = std::int64_t{1} << 60;  // message numbers: differences never overflow
+constexpr std::int64_t kMaxSequence = std::int64_t{1} << 40;  // message numbers: no sender lives so long
 
 }  // namespace evit

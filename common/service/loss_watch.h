@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -24,9 +25,9 @@ class LossWatch {
       const std::int64_t more = more_lost + received->second - seen.before_last.received;
       seen.before_last = seen.last;
       seen.last = {lost, received->second};
-      if (more_lost < 3 || 100 * more_lost <= more) continue;
-      text += (text.empty() ? "" : ", ") + std::to_string((100 * more_lost + more / 2) / more) + " % of " +
-              channel;
+      const double percent = 100.0 * static_cast<double>(more_lost) / static_cast<double>(more);
+      if (more_lost < 3 || percent <= 1) continue;
+      text += (text.empty() ? "" : ", ") + std::to_string(std::lround(percent)) + " % of " + channel;
     }
     if (text.empty()) return text;
     return text + " get lost: is net.core.rmem_max below 4 MiB, the link too slow, or the host too busy?";

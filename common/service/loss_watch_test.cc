@@ -28,5 +28,11 @@ TEST(LossWatchTest, NamesWhatIsBeingLostAndForgets) {
   EXPECT_EQ(watch.Look(counters), "");
 }
 
+TEST(LossWatchTest, BearsNumbersThatAForgerChose) {
+  LossWatch watch;
+  const std::string said = watch.Look({{"EVENTS.received", 2}, {"EVENTS.lost", std::int64_t{1} << 60}});
+  EXPECT_EQ(said.substr(0, 25), "100 % of EVENTS get lost:");
+}
+
 }  // namespace
 }  // namespace evit
