@@ -151,7 +151,7 @@ TEST_F(WholeSystemTest, SurvivesItsMapServer) {
   // Killed again and again while the run goes on: it is started anew, and the result is the same.
   std::thread killer([this] {
     for (int k = 0; k < 3; ++k) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(250));
+      std::this_thread::sleep_for(kSlower * std::chrono::milliseconds(250));
       Kill("map_server");
     }
   });

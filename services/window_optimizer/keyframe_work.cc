@@ -1,5 +1,6 @@
 // The part of WindowOptimizer that takes keyframes from the queue, has them processed and says what came of
 // it.
+#include <algorithm>
 #include <utility>
 
 #include "services/window_optimizer/messages.h"
@@ -8,6 +9,10 @@
 namespace evit {
 namespace {
 
+// Real time: the solver may take so long, and a share of the time between keyframes where that is more. Then
+// the best so far counts.
+constexpr double kLeastBudget = 0.015, kMostBudget = 0.1;  // s
+constexpr double kBudgetShare = 0.6;
 constexpr auto kAnswerPatience = std::chrono::milliseconds(20);  // real time: go on with the points at hand
 
 double Milliseconds(std::chrono::steady_clock::duration d) {
@@ -51,6 +56,11 @@ void WindowOptimizer::StartWork(Waiting next) {
   const bool tracking = tracker_.mode() == TrackerMode::kTracking;
   const bool late_by_restart = next.message.seq <= caught_up_;
   if (!settings_.lossless && tracking && !late_by_restart) Govern(Milliseconds(Clock::now() - next.arrived));
+  if (!settings_.lossless) {
+    const double interval = 1e-3 * Milliseconds(next.arrived - last_arrived_);
+    tracker_.set_solve_budget(std::clamp(kBudgetShare * interval, kLeastBudget, kMostBudget));
+    last_arrived_ = next.arrived;
+  }
   KeyframeInput input = FromMessage(next.message);
   if (tracker_.state_time() != 0 && next.message.previous_utime != tracker_.state_time()) {
     // A keyframe between was lost, or frame_builder started anew: the IMU samples since are our own.

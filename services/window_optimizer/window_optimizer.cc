@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::size_t kMaxQueue = 4;                        // keyframes waiting, real-time mode
 constexpr std::size_t kMaxBootstrapQueue = 32;              // the same while bootstrapping
-constexpr double kSolveBudget = 0.015;                      // s, real time: then the best so far counts
 constexpr auto kAskAgain = std::chrono::milliseconds(200);  // an unanswered query is sent again
 
 double Milliseconds(std::chrono::steady_clock::duration d) {
@@ -39,7 +38,6 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
   on(channels_.pose_hint, &WindowOptimizer::OnPoseHint);
   last_mode_.keyframe_seq = -1;
   last_mode_.keyframe_stride = 1;
-  if (!settings.lossless) tracker_.set_solve_budget(kSolveBudget);
   status_.SetState("waiting", "waiting for map_server and for keyframes");
   if (!settings.lossless && !settings.checkpoint.empty()) {
     checkpoint_file_.emplace(settings.checkpoint);

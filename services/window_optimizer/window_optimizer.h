@@ -98,6 +98,7 @@ class WindowOptimizer : public Service {
   LoadGovernor governor_;  // real time only
 
   std::deque<Waiting> queue_;
+  Clock::time_point last_arrived_;  // of the keyframe in work
 
   map_query_t query_{};
   bool answered_ = false;
