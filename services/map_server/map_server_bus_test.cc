@@ -32,7 +32,7 @@ class MapServerBusTest : public ::testing::Test {
 
   template <typename Condition>
   bool PollUntil(const Condition& holds) {
-    const auto end = Clock::now() + std::chrono::seconds(20);
+    const auto end = Clock::now() + std::chrono::seconds(60);
     while (!holds()) {
       if (Clock::now() > end) return false;
       bus_->Poll(5);

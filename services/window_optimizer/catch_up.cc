@@ -5,7 +5,9 @@
 namespace evit {
 
 void KeyframeCatchUp::Add(keyframe_t message, Clock::time_point now) {
-  if (held_.empty() && !other_epoch_) first_ = now;
+  // Each one that fills the hole shows that the others are on their way.
+  if ((held_.empty() && !other_epoch_) || (!held_.empty() && message.seq < held_.rbegin()->first))
+    moved_ = now;
   if (message.epoch != epoch_) {
     held_.clear();
     epoch_ = message.epoch;
@@ -20,7 +22,7 @@ KeyframeCatchUp::Verdict KeyframeCatchUp::Look(Clock::time_point now) const {
   if (held_.empty()) return Verdict::kWaiting;
   const auto wanted = held_.rbegin()->first - seq_;
   if (static_cast<std::int64_t>(held_.size()) == wanted) return Verdict::kWhole;
-  return now - first_ > kPatience ? Verdict::kHopeless : Verdict::kWaiting;
+  return now - moved_ > kPatience ? Verdict::kHopeless : Verdict::kWaiting;
 }
 
 std::vector<keyframe_t> KeyframeCatchUp::Take() {

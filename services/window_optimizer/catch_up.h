@@ -36,7 +36,7 @@ class KeyframeCatchUp {
   std::int64_t epoch_, seq_;
   std::map<std::int64_t, keyframe_t> held_;
   bool other_epoch_ = false;
-  Clock::time_point first_;  // when the first one came
+  Clock::time_point moved_;  // when the first one came, or the last one that was missing
 };
 
 }  // namespace evit
