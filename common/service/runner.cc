@@ -1,6 +1,7 @@
 #include "common/service/runner.h"
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -17,16 +18,18 @@ namespace {
 
 constexpr char kDefaultUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 
-// The only things a signal handler may touch. Poll never waits for long, so a flag is enough.
-volatile std::sig_atomic_t g_stop = 0;
+// All that a signal handler may touch; it may run in any thread. Poll never waits for long, so a flag is
+// enough.
+std::atomic<bool> g_stop{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
 
-void OnSignal(int /*signal*/) { g_stop = 1; }
+void OnSignal(int /*signal*/) { g_stop = true; }
 
 /// Turns SIGINT and SIGTERM into a flag while it lives, then puts back what was there.
 class StopSignals {
  public:
   StopSignals() {
-    g_stop = 0;
+    g_stop = false;
     struct sigaction action = {};
     action.sa_handler = &OnSignal;
     action.sa_flags = SA_RESTART;
@@ -40,7 +43,7 @@ class StopSignals {
   }
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
-  bool received() const { return g_stop != 0; }
+  bool received() const { return g_stop.load(); }
 
  private:
   struct sigaction old_int_ = {};

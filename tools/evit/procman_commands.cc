@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -19,7 +20,7 @@ namespace evit {
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(5);
-volatile std::sig_atomic_t g_stop = 0;
+std::atomic<bool> g_stop{false};
 
 // The bus of the pipeline that runs here, or the one that was asked for.
 std::unique_ptr<Bus> OpenBusOfPipeline(const std::string& lcm_url) {
@@ -96,8 +97,8 @@ void Logs(const LogOptions& o) {
     std::printf("%s", message.text.c_str());
     std::fflush(stdout);
   });
-  std::signal(SIGINT, [](int) { g_stop = 1; });
-  while (g_stop == 0) bus->Poll(100);
+  std::signal(SIGINT, [](int) { g_stop = true; });
+  while (!g_stop) bus->Poll(100);
 }
 
 void AddOrder(CLI::App* app, const char* name, const char* help, Sheriff::Order order) {

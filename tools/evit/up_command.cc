@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -23,8 +24,8 @@ struct UpOptions {
   std::string file, script, deputy, logs, lcm_url;
 };
 
-volatile std::sig_atomic_t g_stop = 0;
-void OnSignal(int /*signal*/) { g_stop = 1; }
+std::atomic<bool> g_stop{false};
+void OnSignal(int /*signal*/) { g_stop = true; }
 
 // The commands of one deputy; where the file knows only one, its.
 std::vector<ProcmanCommand> CommandsOf(const Deployment& deployment, const UpOptions& o,
@@ -93,7 +94,7 @@ void Up(const UpOptions& o) {
   ScriptRunner runner(deployment, &deputy.supervisor());
   runner.Run(o.script);
   bool running = false;
-  while (g_stop == 0) {
+  while (!g_stop) {
     bus->Poll(20);
     runner.Tick();
     deputy.Tick();

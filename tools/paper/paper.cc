@@ -1,5 +1,6 @@
 #include "tools/paper/paper.h"
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -14,8 +15,8 @@
 namespace evit {
 namespace {
 
-volatile std::sig_atomic_t g_interrupted = 0;
-void OnSignal(int /*signal*/) { g_interrupted = 1; }
+std::atomic<bool> g_interrupted{false};
+void OnSignal(int /*signal*/) { g_interrupted = true; }
 
 }  // namespace
 
@@ -34,7 +35,7 @@ int MakePaper(const PaperOptions& options, const std::string& command, const std
     facts.outcome = RunJobs(
         JobsOf(plan), options.jobs, options.programs,
         [&](double share, const std::string& note) { bar.Show(share, note); },
-        [] { return g_interrupted != 0; });
+        [] { return g_interrupted.load(); });
   }
   for (const auto& failure : facts.outcome.failures)
     std::fprintf(stderr, "evit paper: %s failed: %s\n", failure.id.c_str(), failure.words.c_str());

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -34,8 +35,8 @@ constexpr double kRealTimeSilence = 5;  // s after the end of the log: nothing m
 constexpr double kStuck = 60;           // s without anything from the tracker
 constexpr char kCheckpoint[] = "checkpoint", kPosition[] = "position";  // files for restarts within a run
 
-volatile std::sig_atomic_t g_interrupted = 0;
-void OnSignal(int /*signal*/) { g_interrupted = 1; }
+std::atomic<bool> g_interrupted{false};
+void OnSignal(int /*signal*/) { g_interrupted = true; }
 
 double SecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -131,7 +132,7 @@ std::string WaitForEnd(const RunJob& job, Bus* bus, Remote* remote, Recorder* re
   ProgressBar bar("tracking");
   StartSignal start(remote);
   auto last_activity = Clock::now();
-  while (g_interrupted == 0) {
+  while (!g_interrupted) {
     bus->Poll(20);
     pipeline->Watch();
     memory->Tick();
