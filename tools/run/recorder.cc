@@ -60,7 +60,10 @@ void Recorder::OnWindow(const window_state_t& message) {
 }
 
 void Recorder::OnMode(const tracker_mode_t& message) {
-  active_ = true;
+  // A restarted optimiser says the same again and again where nobody is left to answer.
+  active_ = active_ || message.keyframe_seq != mode_.keyframe_seq ||
+            message.keyframe_epoch != mode_.keyframe_epoch || message.mode != mode_.mode ||
+            message.reason != mode_.reason;
   if (mode_changes_.empty() || message.mode != mode_.mode || message.reason != mode_.reason) {
     mode_changes_.push_back({message.utime, message.mode, message.reason});
   }

@@ -148,6 +148,10 @@ TEST_F(RecorderTest, ProgressAndActivity) {
   SendWindow(0, 0, 0);
   EXPECT_TRUE(recorder_.TakeActivity());
   EXPECT_FALSE(recorder_.TakeActivity());
+  SendMode(7, tracker_mode_t::TRACKING, "restarted: waiting");
+  EXPECT_TRUE(recorder_.TakeActivity());
+  SendMode(7, tracker_mode_t::TRACKING, "restarted: waiting");
+  EXPECT_FALSE(recorder_.TakeActivity());  // nor is the same said again
 }
 
 TEST_F(RecorderTest, RubbishIsIgnored) {
