@@ -10,7 +10,9 @@
 namespace evit {
 namespace {
 
-constexpr std::size_t kRecent = 32;                  // keyframes: half a second at the least
+constexpr std::size_t kRecent = 32;  // keyframes
+constexpr auto kAskedAgain =
+    std::chrono::milliseconds(40);                   // the same wish within it is an echo of the answer
 constexpr auto kPatience = std::chrono::seconds(2);  // before the missing answer is complained of
 
 }  // namespace
@@ -154,7 +156,9 @@ void FrameBuilder::OnMode(const std::uint8_t* data, std::size_t size) {
   // A restarted optimiser says which it had, again and again until it has heard of those since.
   if (verdict == SequenceCounter::Verdict::kNewEpoch)
     resumed_after_ = heard_before ? message.keyframe_seq : -1;
-  if (!settings_.lossless && message.keyframe_seq == resumed_after_ && wanted_.empty()) {
+  if (!settings_.lossless && message.keyframe_seq == resumed_after_ && wanted_.empty() &&
+      (verdict == SequenceCounter::Verdict::kNewEpoch || Clock::now() - asked_again_ > kAskedAgain)) {
+    asked_again_ = Clock::now();
     for (const Sent& sent : recent_) {
       if (sent.seq > message.keyframe_seq) wanted_.push_back(sent.seq);
     }
@@ -187,13 +191,18 @@ void FrameBuilder::SendAgain() {
   sent_again_ = Clock::now();
 }
 
-// One at each call: all at once would not fit the receive buffer.
+// Few at each call: all at once would not fit the receive buffer.
 void FrameBuilder::SendHeld() {
-  if (wanted_.empty()) return;
-  const std::int64_t seq = wanted_.front();
-  wanted_.pop_front();
-  for (Sent& sent : recent_) {
-    if (sent.seq == seq) Publish(&sent);
+  constexpr std::size_t kLongQueue = 8;
+  int n = wanted_.size() > kLongQueue ? 4 : 1;
+  while (n > 0 && !wanted_.empty()) {
+    const std::int64_t seq = wanted_.front();
+    wanted_.pop_front();
+    for (Sent& sent : recent_) {  // it may not be held any more
+      if (sent.seq != seq) continue;
+      Publish(&sent);
+      --n;
+    }
   }
 }
 

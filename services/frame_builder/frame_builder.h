@@ -73,7 +73,7 @@ class FrameBuilder : public Service {
   std::int64_t resumed_after_ = -1;  // the last keyframe it had
   std::int64_t last_sent_ = -1, last_answered_ = -1;
   Clock::time_point moved_ = Clock::now();  // last keyframe sent, or answer heard
-  Clock::time_point sent_again_;
+  Clock::time_point sent_again_, asked_again_;
   bool flushed_ = false;
 };
 

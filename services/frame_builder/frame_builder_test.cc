@@ -189,6 +189,7 @@ TEST_F(FrameBuilderTest, ARestartedOptimiserGetsTheKeyframesSinceItsLastOneAndTh
   };
   for (int times = 0; times < 2; ++times) {  // it says so until it is heard
     heard.clear();
+    if (times > 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     mode.seq = times;
     Publish(peer_bus_.get(), Channels().tracker_mode, mode);
     for (int k = 0; k < 8; ++k) Settle();
@@ -196,6 +197,7 @@ TEST_F(FrameBuilderTest, ARestartedOptimiserGetsTheKeyframesSinceItsLastOneAndTh
     EXPECT_EQ(heard.size(), 5U);
   }
   heard.clear();
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
   mode.seq = 2;
   Publish(peer_bus_.get(), Channels().tracker_mode, mode);
   sender.SendSome(400);  // keyframes are made before the old ones have been sent again

@@ -5,16 +5,18 @@
 namespace evit {
 
 void KeyframeCatchUp::Add(keyframe_t message, Clock::time_point now) {
-  // Each one that fills the hole shows that the others are on their way.
-  if ((held_.empty() && !other_epoch_) || (!held_.empty() && message.seq < held_.rbegin()->first))
-    moved_ = now;
+  if (held_.empty() && !other_epoch_) moved_ = now;
   if (message.epoch != epoch_) {
     held_.clear();
     epoch_ = message.epoch;
     seq_ = -1;  // all of the newcomer's
     other_epoch_ = true;
   }
-  if (message.seq > seq_) held_.emplace(message.seq, std::move(message));
+  if (message.seq <= seq_) return;
+  const std::int64_t newest = held_.empty() ? -1 : held_.rbegin()->first;
+  const bool fills_a_hole = message.seq < newest;
+  // Each that was missing shows that the others are on their way; one that comes twice shows nothing.
+  if (held_.emplace(message.seq, std::move(message)).second && fills_a_hole) moved_ = now;
 }
 
 KeyframeCatchUp::Verdict KeyframeCatchUp::Look(Clock::time_point now) const {

@@ -49,6 +49,25 @@ TEST_F(CatchUpTest, GivesUpAfterAWhile) {
   EXPECT_EQ(Taken(), (std::vector<std::int64_t>{14}));
 }
 
+TEST_F(CatchUpTest, GivesUpTooWhereTheFirstOnesAreGoneAndTheOthersComeAgainAndAgain) {
+  Add(15);
+  for (int k = 0; k < 6; ++k) {  // 11 is not held any more
+    for (std::int64_t seq = 12; seq <= 15; ++seq) Add(seq);
+    now_ += KeyframeCatchUp::kPatience / 4;
+  }
+  EXPECT_EQ(catch_up_.Look(now_), Verdict::kHopeless);
+}
+
+TEST_F(CatchUpTest, WaitsAsLongAsMissingOnesKeepComing) {
+  Add(15);
+  for (std::int64_t seq = 11; seq < 15; ++seq) {
+    now_ += KeyframeCatchUp::kPatience * 3 / 4;
+    EXPECT_EQ(catch_up_.Look(now_), Verdict::kWaiting) << seq;
+    Add(seq);
+  }
+  EXPECT_EQ(catch_up_.Look(now_), Verdict::kWhole);
+}
+
 TEST_F(CatchUpTest, AnotherFrameBuilderHasNoneOfThem) {
   Add(11);
   Add(0, 4);

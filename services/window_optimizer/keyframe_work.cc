@@ -13,6 +13,7 @@ namespace {
 // the best so far counts.
 constexpr double kLeastBudget = 0.015, kMostBudget = 0.1;  // s
 constexpr double kBudgetShare = 0.6;
+constexpr auto kMapIsDead = std::chrono::milliseconds(60);
 constexpr auto kAnswerPatience = std::chrono::milliseconds(20);  // real time: go on with the points at hand
 
 double Milliseconds(std::chrono::steady_clock::duration d) {
@@ -26,7 +27,8 @@ bool WindowOptimizer::ReadyForNext() const {
   // Without any answer yet there are no points at all: waiting is the only sensible thing.
   if (settings_.lossless || last_mode_.keyframe_seq < 0) return false;
   // Waiting again for a map_server that has died would cost keyframes.
-  return map_is_silent_ || Clock::now() - first_asked_ > kAnswerPatience;
+  const auto now = Clock::now();
+  return now - unanswered_since_ > kMapIsDead || now - first_asked_ > kAnswerPatience;
 }
 
 void WindowOptimizer::ProcessQueue() {
@@ -58,7 +60,8 @@ void WindowOptimizer::StartWork(Waiting next) {
   if (!settings_.lossless && tracking && !late_by_restart) Govern(Milliseconds(Clock::now() - next.arrived));
   if (!settings_.lossless) {
     const double interval = 1e-3 * Milliseconds(next.arrived - last_arrived_);
-    tracker_.set_solve_budget(std::clamp(kBudgetShare * interval, kLeastBudget, kMostBudget));
+    tracker_.set_solve_budget(queue_.empty() ? std::clamp(kBudgetShare * interval, kLeastBudget, kMostBudget)
+                                             : kLeastBudget);
     last_arrived_ = next.arrived;
   }
   KeyframeInput input = FromMessage(next.message);

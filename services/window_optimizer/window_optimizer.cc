@@ -54,7 +54,7 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
 void WindowOptimizer::AskForPoints(const VisibilityQuery& query) {
   query_ = ToMessage(query);
   query_.utime = tracker_.state_time();
-  map_is_silent_ = !answered_;
+  if (answered_) unanswered_since_ = Clock::now();
   answered_ = false;
   first_asked_ = asked_ = Clock::now();
   Send(channels_.map_query, &query_, &query_seq_);
@@ -75,7 +75,7 @@ void WindowOptimizer::OnMapPoints(const std::uint8_t* data, std::size_t size) {
     return;
   }
   ++status_.Counter("MAP_POINTS.received");
-  map_is_silent_ = false;
+  unanswered_since_ = Clock::now();
   if (answered_ || message.query_epoch != query_.epoch || message.query_seq != query_.seq) return;
   answered_ = true;
   status_.AddTiming("map_answer", Milliseconds(Clock::now() - first_asked_));

@@ -102,7 +102,7 @@ class WindowOptimizer : public Service {
 
   map_query_t query_{};
   bool answered_ = false;
-  bool map_is_silent_ = false;  // the query before this one had no answer
+  Clock::time_point unanswered_since_ = Clock::now();  // map_server has not been heard since, though asked
   Clock::time_point asked_;
   Clock::time_point first_asked_;
 
