@@ -188,6 +188,7 @@ bool Validate(const tracker_mode_t& m, std::string* why) {
       .Stamp(m)
       .That(m.keyframe_seq >= -1, "keyframe_seq is below -1")
       .That(IsMode(m.mode), "mode is unknown")
+      .That(m.resend == 0 || m.resend == 1, "resend is not 0 or 1")
       .Finite("gyro_bias", m.gyro_bias)
       .Finite("accel_bias", m.accel_bias)
       .Finite("image_speed", m.image_speed)

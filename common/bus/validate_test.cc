@@ -96,6 +96,7 @@ TEST(Validate, Map) {
 
 TEST(Validate, TrackerAndWindow) {
   ExpectRefused<tracker_mode_t>("mode", [](auto* m) { m->mode = 3; });
+  ExpectRefused<tracker_mode_t>("resend", [](auto* m) { m->resend = 2; });
   ExpectRefused<tracker_mode_t>("keyframe_seq", [](auto* m) { m->keyframe_seq = -2; });
   ExpectRefused<tracker_mode_t>("keyframe_stride", [](auto* m) { m->keyframe_stride = 0; });
   ExpectRefused<tracker_mode_t>("keyframe_stride", [](auto* m) { m->keyframe_stride = kNaN; });

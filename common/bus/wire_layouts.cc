@@ -41,7 +41,7 @@ EVIT_LAYOUT(service_status_t, {Bytes(kStamp), Text("service"), Text("state"), Te
                                Array(8, "n_counters"), Count("n_timings", kMaxStatusEntries),
                                Text("timing_name", "n_timings"), Array(8, "n_timings")})
 EVIT_LAYOUT(stream_end_t, {Bytes(kStamp + 2 * 8)})
-EVIT_LAYOUT(tracker_mode_t, {Bytes(kStamp + 2 * 8 + 1), Text("reason"), Bytes(2 * kVector + 2 * 8)})
+EVIT_LAYOUT(tracker_mode_t, {Bytes(kStamp + 2 * 8 + 2), Text("reason"), Bytes(2 * kVector + 2 * 8)})
 EVIT_LAYOUT(view_query_t, {Bytes(kStamp + kVector + kQuaternion), Text("camera.model"),
                            Bytes(2 * 4 + 4 * 8 + 5 * 8 + 2 * 8)})
 EVIT_LAYOUT(window_state_t, {Bytes(kStamp + 8 + 1), Count("n_nodes", kMaxWindowNodes),

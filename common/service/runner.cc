@@ -1,8 +1,6 @@
 #include "common/service/runner.h"
 
 #include <CLI/CLI.hpp>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -11,44 +9,13 @@
 #include "common/bus/faulty_bus.h"
 #include "common/bus/lcm_bus.h"
 #include "common/service/status_reporter.h"
+#include "common/service/stop_signals.h"
 
 namespace evit {
 
 namespace {
 
 constexpr char kDefaultUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
-
-// All that a signal handler may touch; it may run in any thread. Poll never waits for long, so a flag is
-// enough.
-std::atomic<bool> g_stop{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-void OnSignal(int /*signal*/) { g_stop = true; }
-
-/// Turns SIGINT and SIGTERM into a flag while it lives, then puts back what was there.
-class StopSignals {
- public:
-  StopSignals() {
-    g_stop = false;
-    struct sigaction action = {};
-    action.sa_handler = &OnSignal;
-    action.sa_flags = SA_RESTART;
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, &old_int_);
-    sigaction(SIGTERM, &action, &old_term_);
-  }
-  ~StopSignals() {
-    sigaction(SIGINT, &old_int_, nullptr);
-    sigaction(SIGTERM, &old_term_, nullptr);
-  }
-  StopSignals(const StopSignals&) = delete;
-  StopSignals& operator=(const StopSignals&) = delete;
-  bool received() const { return g_stop.load(); }
-
- private:
-  struct sigaction old_int_ = {};
-  struct sigaction old_term_ = {};
-};
 
 }  // namespace
 

@@ -10,9 +10,7 @@
 namespace evit {
 namespace {
 
-constexpr std::size_t kRecent = 32;  // keyframes
-constexpr auto kAskedAgain =
-    std::chrono::milliseconds(40);                   // the same wish within it is an echo of the answer
+constexpr std::size_t kRecent = 32;                  // keyframes
 constexpr auto kPatience = std::chrono::seconds(2);  // before the missing answer is complained of
 
 }  // namespace
@@ -141,9 +139,7 @@ void FrameBuilder::OnMode(const std::uint8_t* data, std::size_t size) {
     modes_.CountInvalid();
     return;
   }
-  const bool heard_before = modes_.epoch() != -1;
-  const SequenceCounter::Verdict verdict = modes_.Accept(message.epoch, message.seq);
-  if (verdict == SequenceCounter::Verdict::kOld) return;
+  if (modes_.Accept(message.epoch, message.seq) == SequenceCounter::Verdict::kOld) return;
   // Before its first keyframe the tracker speaks of none, after our restart of an earlier run's.
   const bool ours = message.keyframe_epoch == status_.epoch() && message.keyframe_seq >= 0 &&
                     message.keyframe_seq <= last_sent_;
@@ -153,12 +149,7 @@ void FrameBuilder::OnMode(const std::uint8_t* data, std::size_t size) {
     builder_.SetFeedbackFor(-1, ToFeedback(message));
     return;
   }
-  // A restarted optimiser says which it had, again and again until it has heard of those since.
-  if (verdict == SequenceCounter::Verdict::kNewEpoch)
-    resumed_after_ = heard_before ? message.keyframe_seq : -1;
-  if (!settings_.lossless && message.keyframe_seq == resumed_after_ && wanted_.empty() &&
-      (verdict == SequenceCounter::Verdict::kNewEpoch || Clock::now() - asked_again_ > kAskedAgain)) {
-    asked_again_ = Clock::now();
+  if (!settings_.lossless && message.resend != 0 && wanted_.empty()) {
     for (const Sent& sent : recent_) {
       if (sent.seq > message.keyframe_seq) wanted_.push_back(sent.seq);
     }

@@ -70,10 +70,9 @@ class FrameBuilder : public Service {
 
   std::deque<Sent> recent_;          // keyframes without an answer; real time: the newest ones
   std::deque<std::int64_t> wanted_;  // numbers of those to send next, first what a restarted optimiser lacks
-  std::int64_t resumed_after_ = -1;  // the last keyframe it had
   std::int64_t last_sent_ = -1, last_answered_ = -1;
   Clock::time_point moved_ = Clock::now();  // last keyframe sent, or answer heard
-  Clock::time_point sent_again_, asked_again_;
+  Clock::time_point sent_again_;
   bool flushed_ = false;
 };
 

@@ -2,22 +2,17 @@
 // bus.
 #include "services/window_optimizer/photometric_optimizer.h"
 
-#include <gtest/gtest.h>
-
-#include <map>
-#include <thread>
-
-#include "common/bus/memory_bus.h"
 #include "common/config/config.h"
 #include "common/photometric/test_room.h"
 #include "common/photometric/view_renderer.h"
 #include "common/photometric/wire/view_wire.h"
+#include "services/window_optimizer/test_peer.h"
 
 namespace evit {
 namespace {
 
 // Plays frame_builder and map_server, and keeps what the service says.
-class PhotometricOptimizerTest : public ::testing::Test {
+class PhotometricOptimizerTest : public test::OptimizerPeer {
  protected:
   static constexpr Utime kInterval = 20'000;
 
@@ -27,10 +22,7 @@ class PhotometricOptimizerTest : public ::testing::Test {
             0.1 * Eigen::Vector3d(std::sin(1.5 * s), std::sin(1.9 * s), std::sin(1.2 * s))};
   }
   void Start(bool lossless) {
-    Keep<window_state_t>(channels_.window_state, &windows_);
-    Keep<tracker_mode_t>(channels_.tracker_mode, &modes_);
-    Keep<body_pose_t>(channels_.body_pose, &poses_);
-    Keep<service_status_t>(channels_.status, &statuses_);
+    Listen();
     bus_->Subscribe(channels_.view_query,
                     [this](const std::string&, const std::uint8_t* data, std::size_t size) {
                       view_query_t query;
@@ -45,20 +37,6 @@ class PhotometricOptimizerTest : public ::testing::Test {
     settings_.lossless = lossless;
     service_ = std::make_unique<PhotometricOptimizer>(service_bus_.get(), channels_, settings_);
     Pump();
-  }
-  template <typename Message>
-  void Keep(const std::string& channel, std::vector<Message>* list) {
-    bus_->Subscribe(channel, [list](const std::string&, const std::uint8_t* data, std::size_t size) {
-      Message message;
-      ASSERT_TRUE(DecodeChecked(data, size, &message));
-      list->push_back(message);
-    });
-  }
-  template <typename Message>
-  void Send(const std::string& channel, const Message& message) {
-    std::vector<std::uint8_t> bytes;
-    EncodeTo(message, &bytes);
-    bus_->Publish(channel, bytes.data(), bytes.size());
   }
   void Pump() {
     for (int k = 0; k < 4; ++k) {
@@ -104,24 +82,13 @@ class PhotometricOptimizerTest : public ::testing::Test {
   std::int64_t Counter(const std::string& name) {
     service_->Stop();  // sends STATUS at once
     Pump();
-    const auto& status = statuses_.back();
-    for (int k = 0; k < status.n_counters; ++k) {
-      if (status.counter_name[k] == name) return status.counter_value[k];
-    }
-    return 0;
+    return LastCounter(name);
   }
 
   PhotometricOptimizer::Settings settings_;
   test::Room room_;
   ViewRenderer renderer_{room_.Map(0.015), test::Room::kDark};
-  Channels channels_;
-  std::shared_ptr<MemoryHub> hub_ = MakeMemoryHub();
-  std::unique_ptr<Bus> service_bus_ = OpenMemoryBus(hub_), bus_ = OpenMemoryBus(hub_);
   std::unique_ptr<PhotometricOptimizer> service_;
-  std::vector<window_state_t> windows_;
-  std::vector<tracker_mode_t> modes_;
-  std::vector<body_pose_t> poses_;
-  std::vector<service_status_t> statuses_;
   std::int64_t keyframe_seq_ = 0, answers_ = 0;
   int queries_ = 0;
   bool map_server_up_ = true;

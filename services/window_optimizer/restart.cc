@@ -22,7 +22,7 @@ void WindowOptimizer::AnnounceCheckpoint() {
   tracker_mode_t message =
       ToTrackerMode(output, checkpoint_->state, checkpoint_->t, checkpoint_->keyframe_seq);
   message.keyframe_epoch = checkpoint_->keyframe_epoch;
-  message.keyframe_stride = 1;
+  message.resend = 1;
   Send(channels_.tracker_mode, &message, &mode_seq_);
   announced_ = Clock::now();
 }

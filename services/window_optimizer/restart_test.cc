@@ -7,12 +7,7 @@ namespace {
 TEST_F(WindowOptimizerTest, RestartedItGoesOnWithoutMissingAKeyframe) {
   WithCheckpoint();
   Start(false);
-  const Utime begin = UntilTracking();
-  SendImu(begin - 50'000, begin + 2'000'000);
-  for (int k = 0; k < 10; ++k) {
-    Send(channels_.keyframe, Keyframe(last_ + 25'000));
-    Pump();
-  }
+  TrackForAWhile();
   const std::int64_t last = modes_.back().keyframe_seq;
   service_.reset();
   std::vector<keyframe_t> missed;
@@ -45,12 +40,7 @@ TEST_F(WindowOptimizerTest, RestartedItGoesOnWithoutMissingAKeyframe) {
 TEST_F(WindowOptimizerTest, RestartedWithoutThoseKeyframesItLooksWhereTheBodyMustBe) {
   WithCheckpoint();
   Start(false);
-  const Utime begin = UntilTracking();
-  SendImu(begin - 50'000, begin + 1'000'000);
-  for (int k = 0; k < 10; ++k) {
-    Send(channels_.keyframe, Keyframe(last_ + 25'000));
-    Pump();
-  }
+  TrackForAWhile();
   service_.reset();
   keyframe_seq_ = 0;  // frame_builder was restarted too: another epoch
   StartAgain();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -10,25 +9,18 @@
 #include <thread>
 #include <vector>
 
-#include "common/bus/codec.h"
-#include "common/bus/lcm_bus.h"
 #include "common/config/config.h"
 #include "common/tracking/synthetic_scene.h"
+#include "services/window_optimizer/test_peer.h"
 #include "services/window_optimizer/window_optimizer.h"
 
 namespace evit::test {
 
-/// Plays frame_builder and map_server over the in-memory bus, where every message is delivered, and keeps
-/// what the service says.
-class WindowOptimizerTest : public ::testing::Test {
+/// Plays frame_builder and map_server.
+class WindowOptimizerTest : public OptimizerPeer {
  protected:
   void Start(bool lossless) {
-    service_bus_ = OpenMemoryBus(hub_);
-    bus_ = OpenMemoryBus(hub_);
-    Keep<window_state_t>(channels_.window_state, &windows_);
-    Keep<tracker_mode_t>(channels_.tracker_mode, &modes_);
-    Keep<body_pose_t>(channels_.body_pose, &poses_);
-    Keep<service_status_t>(channels_.status, &statuses_);
+    Listen();
     bus_->Subscribe(channels_.map_query,
                     [this](const std::string&, const std::uint8_t* data, std::size_t size) {
                       map_query_t query;
@@ -60,22 +52,6 @@ class WindowOptimizerTest : public ::testing::Test {
   }
   void TearDown() override {
     if (!settings_.checkpoint.empty()) std::remove(settings_.checkpoint.c_str());
-  }
-
-  template <typename Message>
-  void Keep(const std::string& channel, std::vector<Message>* list) {
-    bus_->Subscribe(channel, [list](const std::string&, const std::uint8_t* data, std::size_t size) {
-      Message message;
-      ASSERT_TRUE(DecodeChecked(data, size, &message));
-      list->push_back(message);
-    });
-  }
-
-  template <typename Message>
-  void Send(const std::string& channel, const Message& message) {
-    std::vector<std::uint8_t> bytes;
-    EncodeTo(message, &bytes);
-    bus_->Publish(channel, bytes.data(), bytes.size());
   }
 
   void Pump() {
@@ -142,6 +118,16 @@ class WindowOptimizerTest : public ::testing::Test {
     return last_;
   }
 
+  // Until it tracks and ten keyframes more, with IMU messages that reach beyond.
+  void TrackForAWhile() {
+    const Utime begin = UntilTracking();
+    SendImu(begin - 50'000, begin + 2'000'000);
+    for (int k = 0; k < 10; ++k) {
+      Send(channels_.keyframe, Keyframe(last_ + 25'000));
+      Pump();
+    }
+  }
+
   void SendImu(Utime begin, Utime end) {
     std::int64_t seq = 0;
     for (Utime t = begin; t <= end; t += 5'000) {
@@ -162,25 +148,14 @@ class WindowOptimizerTest : public ::testing::Test {
   std::int64_t Counter(const std::string& name) {
     service_->Stop();  // sends STATUS at once
     Pump();
-    const auto& status = statuses_.back();
-    for (int k = 0; k < status.n_counters; ++k) {
-      if (status.counter_name[k] == name) return status.counter_value[k];
-    }
-    return 0;
+    return LastCounter(name);
   }
 
   WindowOptimizer::Settings settings_;
   synthetic::Motion motion_;
   std::vector<Eigen::Vector3f> room_ = synthetic::RoomPoints();
   AlignmentSettings alignment_ = synthetic::Alignment();
-  std::shared_ptr<MemoryHub> hub_ = MakeMemoryHub();
-  Channels channels_;
-  std::unique_ptr<Bus> service_bus_, bus_;
   std::unique_ptr<WindowOptimizer> service_;
-  std::vector<window_state_t> windows_;
-  std::vector<tracker_mode_t> modes_;
-  std::vector<body_pose_t> poses_;
-  std::vector<service_status_t> statuses_;
   Utime last_ = 0;
   std::int64_t keyframe_seq_ = 0, answers_ = 0;
   int queries_ = 0;

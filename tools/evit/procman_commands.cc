@@ -1,6 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
@@ -12,6 +10,7 @@
 
 #include "common/bus/lcm_bus.h"
 #include "common/service/runner.h"
+#include "common/service/stop_signals.h"
 #include "procman/sheriff.h"
 #include "tools/evit/commands.h"
 #include "tools/run/local_network.h"
@@ -20,7 +19,6 @@ namespace evit {
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(5);
-std::atomic<bool> g_stop{false};
 
 // The bus of the pipeline that runs here, or the one that was asked for.
 std::unique_ptr<Bus> OpenBusOfPipeline(const std::string& lcm_url) {
@@ -97,8 +95,8 @@ void Logs(const LogOptions& o) {
     std::printf("%s", message.text.c_str());
     std::fflush(stdout);
   });
-  std::signal(SIGINT, [](int) { g_stop = true; });
-  while (!g_stop) bus->Poll(100);
+  const StopSignals signals;
+  while (!signals.received()) bus->Poll(100);
 }
 
 void AddOrder(CLI::App* app, const char* name, const char* help, Sheriff::Order order) {

@@ -1,6 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -11,6 +9,7 @@
 
 #include "common/bus/lcm_bus.h"
 #include "common/service/runner.h"
+#include "common/service/stop_signals.h"
 #include "procman/deputy.h"
 #include "procman/script_runner.h"
 #include "tools/evit/commands.h"
@@ -23,9 +22,6 @@ namespace {
 struct UpOptions {
   std::string file, script, deputy, logs, lcm_url;
 };
-
-std::atomic<bool> g_stop{false};
-void OnSignal(int /*signal*/) { g_stop = true; }
 
 // The commands of one deputy; where the file knows only one, its.
 std::vector<ProcmanCommand> CommandsOf(const Deployment& deployment, const UpOptions& o,
@@ -75,10 +71,7 @@ void Up(const UpOptions& o) {
     run_file = std::make_unique<RunFile>(o.logs);
   }
   setenv("LCM_DEFAULT_URL", url.c_str(), 1);  // for the commands
-  struct sigaction action = {};
-  action.sa_handler = OnSignal;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  const StopSignals signals;
 
   const auto bus = OpenLcmBus(url);
   // What the commands say is shown as it comes over the bus, like in any sheriff.
@@ -94,7 +87,7 @@ void Up(const UpOptions& o) {
   ScriptRunner runner(deployment, &deputy.supervisor());
   runner.Run(o.script);
   bool running = false;
-  while (!g_stop) {
+  while (!signals.received()) {
     bus->Poll(20);
     runner.Tick();
     deputy.Tick();

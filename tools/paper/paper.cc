@@ -1,10 +1,9 @@
 #include "tools/paper/paper.h"
 
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 
+#include "common/service/stop_signals.h"
 #include "tools/paper/figures.h"
 #include "tools/paper/index.h"
 #include "tools/paper/job.h"
@@ -13,21 +12,12 @@
 #include "tools/progress.h"
 
 namespace evit {
-namespace {
-
-std::atomic<bool> g_interrupted{false};
-void OnSignal(int /*signal*/) { g_interrupted = true; }
-
-}  // namespace
 
 int MakePaper(const PaperOptions& options, const std::string& command, const std::string& source_tree) {
   const auto begin = std::chrono::steady_clock::now();
   const PaperPlan plan = MakePlan(options);
   MakeFolder(options.out + "/work");
-  struct sigaction action = {};
-  action.sa_handler = OnSignal;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  const StopSignals signals;
 
   IndexFacts facts;
   {
@@ -35,7 +25,7 @@ int MakePaper(const PaperOptions& options, const std::string& command, const std
     facts.outcome = RunJobs(
         JobsOf(plan), options.jobs, options.programs,
         [&](double share, const std::string& note) { bar.Show(share, note); },
-        [] { return g_interrupted.load(); });
+        [&] { return signals.received(); });
   }
   for (const auto& failure : facts.outcome.failures)
     std::fprintf(stderr, "evit paper: %s failed: %s\n", failure.id.c_str(), failure.words.c_str());

@@ -2,9 +2,7 @@
 
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -14,6 +12,7 @@
 #include "common/bus/lcm_bus.h"
 #include "common/evaluation/trajectory_error.h"
 #include "common/service/runner.h"
+#include "common/service/stop_signals.h"
 #include "tools/progress.h"
 #include "tools/run/bus_log.h"
 #include "tools/run/latency.h"
@@ -34,9 +33,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double kRealTimeSilence = 5;  // s after the end of the log: nothing more is to come
 constexpr double kStuck = 60;           // s without anything from the tracker
 constexpr char kCheckpoint[] = "checkpoint", kPosition[] = "position";  // files for restarts within a run
-
-std::atomic<bool> g_interrupted{false};
-void OnSignal(int /*signal*/) { g_interrupted = true; }
 
 double SecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -127,12 +123,12 @@ void Show(const Recorder& recorder, ProgressBar* bar) {
 }
 
 // Until the run is over; returns how it ended.
-std::string WaitForEnd(const RunJob& job, Bus* bus, Remote* remote, Recorder* recorder, Pipeline* pipeline,
-                       MemoryLog* memory) {
+std::string WaitForEnd(const RunJob& job, const StopSignals& signals, Bus* bus, Remote* remote,
+                       Recorder* recorder, Pipeline* pipeline, MemoryLog* memory) {
   ProgressBar bar("tracking");
   StartSignal start(remote);
   auto last_activity = Clock::now();
-  while (!g_interrupted) {
+  while (!signals.received()) {
     bus->Poll(20);
     pipeline->Watch();
     memory->Tick();
@@ -164,10 +160,10 @@ void PlayAgain(const SE3& start, Bus* bus, Remote* remote, Recorder* recorder) {
 }
 
 // All loops of the log; returns how it ended.
-std::string Play(const RunJob& job, const RunInputs& inputs, Bus* bus, Remote* remote, Recorder* recorder,
-                 Pipeline* pipeline, MemoryLog* memory) {
+std::string Play(const RunJob& job, const RunInputs& inputs, const StopSignals& signals, Bus* bus,
+                 Remote* remote, Recorder* recorder, Pipeline* pipeline, MemoryLog* memory) {
   for (int loop = 1;; ++loop) {
-    const std::string ended = WaitForEnd(job, bus, remote, recorder, pipeline, memory);
+    const std::string ended = WaitForEnd(job, signals, bus, remote, recorder, pipeline, memory);
     if (job.loops > 1) {
       const TrajectoryError error = AbsoluteError(inputs.truth, recorder->online(), Alignment::kNone);
       std::printf("loop %d: %zu poses, ATE %.2f cm, %s\n", loop, recorder->online().size(),
@@ -194,10 +190,7 @@ int Run(const RunJob& job) {
     run_file = std::make_unique<RunFile>(job.out);
   }
 
-  struct sigaction action = {};
-  action.sa_handler = OnSignal;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  const StopSignals signals;
 
   const auto bus = OpenLcmBus(url);
   const Channels channels(job.prefix);
@@ -217,7 +210,7 @@ int Run(const RunJob& job) {
   outcome.begin = begin;
   Remote remote(bus.get(), channels);
   MemoryLog memory(&pipeline);
-  outcome.ended = Play(job, inputs, bus.get(), &remote, &recorder, &pipeline, &memory);
+  outcome.ended = Play(job, inputs, signals, bus.get(), &remote, &recorder, &pipeline, &memory);
   outcome.end = Clock::now();
   outcome.wall_s = SecondsSince(begin);
   outcome.outages = &outages;

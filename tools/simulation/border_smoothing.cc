@@ -3,8 +3,9 @@
 #include <array>
 #include <cmath>
 
+#include "common/simd/lanes.h"
+#include "tools/simulation/four_values.h"
 #include "tools/simulation/renderer.h"
-#include "tools/simulation/vector_code.h"
 
 namespace evit {
 namespace {
@@ -65,7 +66,7 @@ struct Share {
 
 }  // namespace
 
-EVIT_VECTOR_CODE void Renderer::Smooth(const std::vector<PlacedSurface>& placed, View* view) const {
+EVIT_MULTIVERSION void Renderer::Smooth(const std::vector<PlacedSurface>& placed, View* view) const {
   const int width = camera_.width, height = camera_.height;
   std::vector<std::uint8_t> border(width);
   for (int y = 1; y + 1 < height; ++y) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "tools/simulation/vector_code.h"
+#include "common/simd/lanes.h"
 
 namespace evit {
 
@@ -53,8 +53,8 @@ void EventSensor::Start(int row_begin, int row_end, const float* image) {
   }
 }
 
-EVIT_VECTOR_CODE void EventSensor::Step(int row_begin, int row_end, const float* image, std::int32_t t0,
-                                        std::int32_t t1, std::vector<Event>* events) {
+EVIT_MULTIVERSION void EventSensor::Step(int row_begin, int row_end, const float* image, std::int32_t t0,
+                                         std::int32_t t1, std::vector<Event>* events) {
   const float dt = static_cast<float>(t1 - t0), keep = std::exp(-dt / tau_us_), lag = tau_us_ / dt;
   std::vector<float> before(width_);
   for (int y = row_begin; y < row_end; ++y) {

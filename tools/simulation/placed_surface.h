@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "tools/simulation/four_values.h"
 #include "tools/simulation/scene.h"
-#include "tools/simulation/vector_code.h"
 
 namespace evit {
 

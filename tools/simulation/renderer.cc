@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/simd/lanes.h"
+#include "tools/simulation/four_values.h"
 #include "tools/simulation/screen_span.h"
-#include "tools/simulation/vector_code.h"
 
 namespace evit {
+
 Renderer::Renderer(const Camera& camera, const Scene& scene)
     : camera_(camera), scene_(scene), focal_(static_cast<float>(0.5 * (camera.fx + camera.fy))) {
   const std::size_t n = static_cast<std::size_t>(camera.width) * camera.height;
@@ -52,7 +54,7 @@ bool Renderer::FindSpans(const PlacedSurface& placed, View* view, int* first_row
                          last_row);
 }
 
-EVIT_VECTOR_CODE void Renderer::DrawDepth(const PlacedSurface& placed, View* view) const {
+EVIT_MULTIVERSION void Renderer::DrawDepth(const PlacedSurface& placed, View* view) const {
   int first_row = 0, last_row = -1;
   if (!FindSpans(placed, view, &first_row, &last_row)) return;
   const bool rectangle = placed.surface->kind == Surface::Kind::kRectangle;

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "tools/simulation/vector_code.h"
+#include "tools/simulation/four_values.h"
 
 namespace evit {
 
@@ -35,7 +35,7 @@ class Texture {
     return a + rest * (SampleLevel(level + 1, s, t) - a);
   }
 
-  /// Four values at once, twice as fast.
+  /// The same for four at once.
   Floats Sample(Floats s, Floats t, Floats lod) const;
 
  private:

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <csignal>
+
+namespace evit {
+
+/// Turns SIGINT and SIGTERM into a flag while it lives, then puts back what was there. One at a time in a
+/// process.
+class StopSignals {
+ public:
+  StopSignals();
+  ~StopSignals();
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+  /// Whether one has come. Calls into the system are taken up again after it (SA_RESTART): wait with a time-out.
+  bool received() const;
+
+ private:
+  struct sigaction old_int_ = {};
+  struct sigaction old_term_ = {};
+};
+
+}  // namespace evit
