@@ -43,8 +43,6 @@ SE3 Predicted(const Blocks& b) {
          PoseFromBlock(b.extrinsic.data());
 }
 
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-
 TEST(CameraPoseFactor, IsZeroWhereTheCameraIsAndCountsInSigmas) {
   const Blocks b = Example(0.05);
   Vector6d off;

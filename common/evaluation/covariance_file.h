@@ -4,11 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "common/geometry/se3.h"
 #include "common/time/utime.h"
 
 namespace evit {
-
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// Covariance of one pose: position (m, map frame), rotation (rad, right perturbation, body frame). All zero
 /// where the tracker gave none (bootstrapping).

@@ -4,6 +4,9 @@
 
 namespace evit {
 
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
 /// Rigid transformation. A variable `T_a_b` maps coordinates of frame b to frame a: p_a = T_a_b * p_b.
 /// Perturbation everywhere in this project: position in the outer frame, rotation on the right,
 /// p <- p + dp, q <- q * ExpSO3(dtheta); a tangent vector is (dp [m], dtheta [rad]).

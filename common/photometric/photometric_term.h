@@ -10,9 +10,6 @@
 
 namespace evit {
 
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
 /// Motion of the body in the map frame: (velocity [m/s] of the body-fixed point that is at `origin`, angular
 /// rate [rad/s]). About a fixed origin, so that it does not depend on the pose estimated along with it.
 using Twist = Vector6d;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/tracking/pose_covariance.h"
 #include "common/tracking/text.h"
 
 namespace evit {
@@ -97,7 +98,8 @@ void PhotometricTracker::Accept(const PhotometricFrame& frame, double after_even
   out->image_speed = image_speed_;
   out->information.topLeftCorner<6, 6>() = solution.information;
   out->information.bottomRightCorner<9, 9>().setIdentity();
-  out->covariance = PoseCovariance(out->information);
+  out->covariance = PoseCovariance(out->information) +
+                    StampCovariance(state_.velocity, rate_, 1e-6 * config_.window().stamp_sigma_us());
   out->nodes.push_back({frame.t, frame.seq, state_});
 }
 

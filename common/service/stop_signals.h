@@ -13,7 +13,8 @@ class StopSignals {
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
-  /// Whether one has come. Calls into the system are taken up again after it (SA_RESTART): wait with a time-out.
+  /// Whether one has come. Calls into the system are taken up again after it (SA_RESTART): wait with a
+  /// time-out.
   bool received() const;
 
  private:

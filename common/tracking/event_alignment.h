@@ -47,7 +47,7 @@ struct AlignmentSettings {
 struct AlignmentTerm {
   double cost = 0;
   Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();
-  Eigen::Matrix<double, 6, 6> hessian = Eigen::Matrix<double, 6, 6>::Zero();
+  Matrix6d hessian = Matrix6d::Zero();
 };
 
 /// A point behind the camera costs what an empty field (255) costs and pulls nowhere.

@@ -10,8 +10,6 @@
 namespace evit {
 namespace {
 
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-
 BodyState Moved(const BodyState& s, const Vector15d& d) {
   BodyState out = s;
   out.T_world_body = s.T_world_body.Plus(d.head<6>());

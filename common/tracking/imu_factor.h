@@ -7,9 +7,6 @@
 
 namespace evit {
 
-using Vector15d = Eigen::Matrix<double, 15, 1>;
-using Matrix15d = Eigen::Matrix<double, 15, 15>;
-
 /// The IMU term between two keyframes i and j (paper Eq. (4)), whitened. Rows: alpha, beta, gamma, gyro bias,
 /// accel bias. The rotation row is Log(gamma^T R_i^T R_j): the paper's twice the vector part of a quaternion
 /// equals it to second order, and this one stays right for large errors too.

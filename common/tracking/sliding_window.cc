@@ -3,8 +3,6 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
-#include <Eigen/Cholesky>
-
 #include "common/tracking/ceres_factors.h"
 #include "common/tracking/pose_manifold.h"
 
@@ -108,27 +106,6 @@ Matrix15d SlidingWindow::NewestInformation() const {
   Matrix15d information = prior.information;
   information.topLeftCorner<6, 6>() += nodes_.back().alignment.hessian;
   return 0.5 * (information + information.transpose());
-}
-
-Eigen::Matrix<double, 6, 6> CommonCovariance(const AlignmentTerm& alignment, double share, double map_sigma) {
-  Eigen::Matrix<double, 6, 6> common = Eigen::Matrix<double, 6, 6>::Zero();
-  if (share > 0) {
-    // Where a keyframe says nothing of a direction the map cannot pull the pose along it either.
-    constexpr double kMostPosition = 0.03, kMostRotation = 0.02;  // m, rad
-    Eigen::Matrix<double, 6, 6> information = alignment.hessian / share;
-    information.diagonal().head<3>().array() += 1 / (kMostPosition * kMostPosition);
-    information.diagonal().tail<3>().array() += 1 / (kMostRotation * kMostRotation);
-    common = information.ldlt().solve(Eigen::Matrix<double, 6, 6>::Identity());
-    common = (0.5 * (common + common.transpose())).eval();
-  }
-  common.diagonal().head<3>().array() += map_sigma * map_sigma;
-  return common;
-}
-
-Eigen::Matrix<double, 6, 6> PoseCovariance(const Matrix15d& information) {
-  const Matrix15d ridge = 1e-9 * Matrix15d(information.diagonal().cwiseMax(1e-9).asDiagonal());
-  const Matrix15d covariance = (information + ridge).ldlt().solve(Matrix15d::Identity());
-  return 0.5 * (covariance.topLeftCorner<6, 6>() + covariance.topLeftCorner<6, 6>().transpose());
 }
 
 }  // namespace evit

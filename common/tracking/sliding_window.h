@@ -66,12 +66,4 @@ class SlidingWindow {
   double time_budget_ = 0;  // s
 };
 
-/// Covariance of the pose that no number of keyframes lowers: what the map and the edges do wrong is the same
-/// in all of them. `share` of what one keyframe's alignment alone leaves open, at most some centimetres, and
-/// a shift of the whole map (m, per axis). Order as PoseCovariance().
-Eigen::Matrix<double, 6, 6> CommonCovariance(const AlignmentTerm& alignment, double share, double map_sigma);
-
-/// 6x6 covariance of the pose (dp [m], map frame; dtheta [rad], body frame) of a state's information.
-Eigen::Matrix<double, 6, 6> PoseCovariance(const Matrix15d& information);
-
 }  // namespace evit

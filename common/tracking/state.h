@@ -9,6 +9,9 @@
 
 namespace evit {
 
+using Vector15d = Eigen::Matrix<double, 15, 1>;
+using Matrix15d = Eigen::Matrix<double, 15, 15>;
+
 /// State of the body at one keyframe (paper Eq. (1)). Tangent of 15: (dp, dtheta, dv, d gyro bias, d accel
 /// bias).
 struct BodyState {
@@ -29,6 +32,6 @@ BodyState FromBlocks(const StateBlocks& blocks);
 SE3 PoseFromBlock(const double* pose);
 
 /// Difference b minus a in the tangent of a, 15 numbers.
-Eigen::Matrix<double, 15, 1> Minus(const BodyState& b, const BodyState& a);
+Vector15d Minus(const BodyState& b, const BodyState& a);
 
 }  // namespace evit

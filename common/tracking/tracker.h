@@ -38,7 +38,7 @@ struct TrackerOutput {
   std::string reason;               // why it is in this mode
   bool has_pose = false;            // nodes.back() is this keyframe
   std::vector<NodeEstimate> nodes;  // the window, oldest first
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  Matrix6d covariance = Matrix6d::Zero();
   Matrix15d information = Matrix15d::Zero();  // on the newest state, while tracking
   AlignmentQuality quality;
   int iterations = 0;
@@ -127,8 +127,7 @@ class Tracker {
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s: newest gyro reading less its bias
   int bad_frames_ = 0;                              // high-rate frames in a row that did not fit
   Utime aligned_at_ = 0;                            // newest keyframe whose events the map lay on
-  Eigen::Matrix<double, 6, 6> common_ =
-      Eigen::Matrix<double, 6, 6>::Zero();  // CommonCovariance of the newest aligned keyframe
+  Matrix6d common_ = Matrix6d::Zero();              // CommonCovariance of the newest aligned keyframe
   double point_share_ = 1;
 
   struct LocalizedFrame {  // high-rate frame kept until the window takes over

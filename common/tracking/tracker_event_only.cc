@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/tracking/pose_covariance.h"
 #include "common/tracking/text.h"
 #include "common/tracking/tracker.h"
 
@@ -45,7 +46,8 @@ void Tracker::ProcessEventOnly(const KeyframeInput& keyframe, TrackerOutput* out
     out->information.topLeftCorner<6, 6>() =
         EvaluateAlignment(alignment_, field, 0, points, fit.T_world_body, true).hessian;
     out->information.bottomRightCorner<9, 9>().setIdentity();
-    out->covariance = PoseCovariance(out->information);
+    out->covariance = PoseCovariance(out->information) +
+                      StampCovariance(state_.velocity, rate_, 1e-6 * config_.window().stamp_sigma_us());
     out->covariance.diagonal().head<3>().array() += std::pow(config_.window().map_sigma_m(), 2);
     out->nodes.push_back({keyframe.t, keyframe.seq, state_});
     Finish(points, out);

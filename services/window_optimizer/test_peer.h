@@ -12,8 +12,8 @@
 
 namespace evit::test {
 
-/// The other side of an optimiser's bus, in memory, where every message is delivered: sends, and keeps what the
-/// service says.
+/// The other side of an optimiser's bus, in memory, where every message is delivered: sends, and keeps what
+/// the service says.
 class OptimizerPeer : public ::testing::Test {
  protected:
   void Listen() {

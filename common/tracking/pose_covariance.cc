@@ -1,0 +1,34 @@
+#include "common/tracking/pose_covariance.h"
+
+#include <Eigen/Cholesky>
+
+namespace evit {
+
+Matrix6d PoseCovariance(const Matrix15d& information) {
+  const Matrix15d ridge = 1e-9 * Matrix15d(information.diagonal().cwiseMax(1e-9).asDiagonal());
+  const Matrix15d covariance = (information + ridge).ldlt().solve(Matrix15d::Identity());
+  return 0.5 * (covariance.topLeftCorner<6, 6>() + covariance.topLeftCorner<6, 6>().transpose());
+}
+
+Matrix6d CommonCovariance(const AlignmentTerm& alignment, double share, double map_sigma) {
+  Matrix6d common = Matrix6d::Zero();
+  if (share > 0) {
+    // Where a keyframe says nothing of a direction the map cannot pull the pose along it either.
+    constexpr double kMostPosition = 0.03, kMostRotation = 0.02;  // m, rad
+    Matrix6d information = alignment.hessian / share;
+    information.diagonal().head<3>().array() += 1 / (kMostPosition * kMostPosition);
+    information.diagonal().tail<3>().array() += 1 / (kMostRotation * kMostRotation);
+    common = information.ldlt().solve(Matrix6d::Identity());
+    common = (0.5 * (common + common.transpose())).eval();
+  }
+  common.diagonal().head<3>().array() += map_sigma * map_sigma;
+  return common;
+}
+
+Matrix6d StampCovariance(const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate, double sigma) {
+  Vector6d moved;
+  moved << sigma * velocity, sigma * rate;
+  return moved * moved.transpose();
+}
+
+}  // namespace evit

@@ -1,0 +1,53 @@
+#include "common/tracking/pose_covariance.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <random>
+
+namespace evit {
+namespace {
+
+TEST(PoseCovariance, IsThePosesPartOfTheInverse) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  const Matrix15d root = Matrix15d::NullaryExpr([&] { return normal(random); });
+  const Matrix15d information = root * root.transpose() + Matrix15d::Identity();
+  const Matrix6d expected = information.inverse().topLeftCorner<6, 6>();
+  EXPECT_LT((PoseCovariance(information) - expected).norm(), 1e-6 * expected.norm());
+}
+
+TEST(PoseCovariance, WhatOneKeyframeLeavesOpenStaysButNotWithoutBound) {
+  AlignmentTerm alignment;
+  alignment.hessian.diagonal() << 1e6, 1e6, 0, 1e8, 1e8, 1e8;  // nothing seen along z
+  const Matrix6d half = CommonCovariance(alignment, 0.5, 0.002);
+  EXPECT_NEAR(half(0, 0), 0.5e-6 + 4e-6, 1e-8);
+  EXPECT_NEAR(half(2, 2), 9e-4 + 4e-6, 1e-8);
+  EXPECT_NEAR(half(3, 3), 0.5e-8, 1e-10);
+  EXPECT_NEAR(CommonCovariance(alignment, 0, 0.002)(0, 0), 4e-6, 1e-12);
+  EXPECT_EQ(CommonCovariance(alignment, 0, 0.002)(3, 3), 0);
+}
+
+// Poses of a body that goes on for as long as its events are late.
+TEST(PoseCovariance, LateEventsSpreadPosesAlongTheMotion) {
+  const Eigen::Vector3d velocity(0.5, -1, 0.2), rate(2, 0.3, -4);
+  constexpr double kSigma = 400e-6;
+  const SE3 T_world_body(ExpSO3({0.3, -1.1, 0.4}), {1, 2, 3});
+  std::mt19937 random(1);
+  std::normal_distribution<double> late(0, kSigma);
+  constexpr int kPoses = 20'000;
+  Matrix6d spread = Matrix6d::Zero();
+  for (int k = 0; k < kPoses; ++k) {
+    const double dt = late(random);
+    const SE3 then(T_world_body.q * ExpSO3(dt * rate), T_world_body.p + dt * velocity);
+    Vector6d error;
+    error << then.p - T_world_body.p, LogSO3(T_world_body.q.conjugate() * then.q);
+    spread += error * error.transpose() / kPoses;
+  }
+  const Matrix6d claimed = StampCovariance(velocity, rate, kSigma);
+  EXPECT_LT((claimed - spread).norm(), 0.03 * spread.norm());
+  EXPECT_EQ(StampCovariance(velocity, rate, 0).norm(), 0);
+}
+
+}  // namespace
+}  // namespace evit
