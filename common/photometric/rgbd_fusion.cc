@@ -8,7 +8,7 @@
 namespace evit {
 namespace {
 
-constexpr std::int64_t kOffset = 1 << 20;  // voxels: a map reaches 8 km each way at 8 mm
+constexpr std::int64_t kOffset = 1 << 20;  // voxels: a map reaches 12 km each way at 12 mm
 
 // 21 bits for each axis; order of the keys is order in space.
 std::uint64_t KeyOf(const Eigen::Vector3d& p, double voxel) {

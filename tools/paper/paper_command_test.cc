@@ -22,9 +22,9 @@ TEST(PaperCommand, SimulatesTracksScoresAndDrawsAndThenHasNothingToDo) {
                                       "method { id: \"evit\" name: \"EVIT\" frequency: \"(dyn)\" config: \"" +
                                       config +
                                       "tracker.textproto\" }\n"
-                                      "figure_method: \"evit\" figure_sequence: \"desk_fast\"\n"
-                                      "sequence { name: \"desk_fast\" scene: \"desk\" fast: true\n"
-                                      "  simulated { builtin: \"builtin:fast\" } }\n");
+                                      "figure_method: \"evit\" figure_sequence: \"desk_normal\"\n"
+                                      "sequence { name: \"desk_normal\" scene: \"desk\" fast: false\n"
+                                      "  simulated { builtin: \"builtin:desk_normal\" } }\n");
   const auto run = [&] {
     const std::string command = EVIT_BIN_DIR "/evit paper --config " + (folder / "paper.textproto") +
                                 " --out " + (folder / "out") + " >" + (folder / "said") + " 2>&1";
@@ -32,7 +32,7 @@ TEST(PaperCommand, SimulatesTracksScoresAndDrawsAndThenHasNothingToDo) {
   };
   ASSERT_EQ(run(), 0) << ReadText(folder / "said");
   EXPECT_THAT(ReadText(folder / "said"), HasSubstr("3 jobs done, 0 kept, 0 failed"));
-  const auto json = nlohmann::json::parse(ReadText(folder / "out/tables/fast.none.json"));
+  const auto json = nlohmann::json::parse(ReadText(folder / "out/tables/normal.none.json"));
   const auto& row = json.at("rows").at(0);
   EXPECT_EQ(row.at("100%").at("reached"), 1);
   EXPECT_LT(row.at("100%").at("position_cm").at("median").get<double>(), 2);
