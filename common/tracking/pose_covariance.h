@@ -15,8 +15,9 @@ Matrix6d PoseCovariance(const Matrix15d& information);
 /// a shift of the whole map (m, per axis).
 Matrix6d CommonCovariance(const AlignmentTerm& alignment, double share, double map_sigma);
 
-/// What it does to the pose that events come late by an amount which nobody has measured (pixels' latency, clocks set by
-/// hand): the body has moved on by then. `velocity`: m/s, map frame; `rate`: rad/s, body frame; `sigma`: s.
+/// What it does to the pose that events come late by an amount which nobody has measured (pixels' latency,
+/// clocks set by hand): the body has moved on by then. `velocity`: m/s, map frame; `rate`: rad/s, body frame;
+/// `sigma`: s.
 Matrix6d StampCovariance(const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate, double sigma);
 
 }  // namespace evit

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <stdexcept>
 #include <thread>
 
@@ -19,11 +18,6 @@ constexpr std::int64_t kTwoPackets = 128 << 10;  // bytes
 constexpr std::int64_t kOverhead = 512;  // bytes: what a datagram costs the receive buffer beyond its data
 constexpr int kBurst = 64;               // messages between two looks at the bus
 constexpr std::int64_t kReportPeriodUs = 200'000;
-constexpr std::int64_t kSettleUs =
-    500'000;  // STREAM_END comes every 100 ms at first, so that one may get lost
-constexpr std::int64_t kEndPeriodUs = 1'000'000;
-constexpr std::int64_t kEndPeriodSettlingUs = 100'000;
-constexpr std::int64_t kSilenceUs = 3'000'000;  // consumers send credit every 50 ms
 
 /// Bytes that may be under way: 1 MiB, or a quarter of the receive buffer where that is less, but two full
 /// packets where that leaves a third of it free: with one at a time, sender and consumer would only take
@@ -33,12 +27,6 @@ std::int64_t WindowSize(std::int64_t granted_receive_buffer) {
   // Consumers run on this host and get the buffer this process got.
   const std::int64_t two_packets = std::min(kTwoPackets, granted_receive_buffer * 5 / 8);
   return std::clamp(granted_receive_buffer / 4, two_packets, kWindow);
-}
-
-std::string Join(const std::vector<std::string>& names) {
-  std::string result;
-  for (const std::string& name : names) result += (result.empty() ? "" : ", ") + name;
-  return result;
 }
 
 }  // namespace
@@ -250,63 +238,6 @@ int LogReplay::poll_timeout_ms() const {
   if (options_.lossless && !window_.MaySend(recording_.bytes(next_) + kOverhead)) return kLongest;
   const std::int64_t wait_us = pacer_.Until(recording_.utime(next_), SteadyTime());
   return static_cast<int>(std::clamp<std::int64_t>(wait_us / 1000, 0, kLongest));
-}
-
-void LogReplay::AnnounceEnd(std::int64_t now_us) {
-  if (delivered_us_ == 0 && everything_delivered()) {
-    delivered_us_ = now_us;
-    end_sent_us_ = 0;
-  }
-  const bool settling = delivered_us_ == 0 || now_us - delivered_us_ < kSettleUs;
-  if (end_sent_us_ != 0 && now_us - end_sent_us_ < (settling ? kEndPeriodSettlingUs : kEndPeriodUs)) return;
-  stream_end_t message{};
-  message.utime = sender_.last_utime(recording_.utime(end_ - 1));
-  message.seq = end_seq_++;
-  message.epoch = sender_.epoch();
-  message.n_events_messages = sender_.sent(Recording::kEvents);
-  message.n_imu_messages = sender_.sent(Recording::kImu);
-  std::vector<std::uint8_t> bytes;
-  EncodeTo(message, &bytes);
-  bus_->Publish(channels_.stream_end, bytes.data(), bytes.size());
-  end_sent_us_ = now_us;
-}
-
-bool LogReplay::done() const {
-  return options_.exit_at_end && phase_ == Phase::kEnded && delivered_us_ != 0 &&
-         SteadyTime() - delivered_us_ >= kSettleUs;
-}
-
-void LogReplay::Report(std::int64_t now_us) {
-  reported_us_ = now_us;
-  const double length = 1e-6 * static_cast<double>(recording_.utime(end_ - 1) - recording_.utime(begin_));
-  const double position = 1e-6 * static_cast<double>(DataTime() - recording_.utime(begin_));
-  status_.SetProgress(next_ == end_ ? 1.0 : (length > 0 ? position / length : 0.0));
-  char place[96];
-  std::snprintf(place, sizeof(place), "%.2f of %.2f s", position, length);
-  const std::string where = options_.log + ": " + place;
-  const bool silent =
-      options_.lossless && !everything_delivered() && window_.longest_silence(now_us) > kSilenceUs;
-  if (phase_ == Phase::kWaiting && options_.lossless) {
-    status_.SetState("waiting", "for CREDIT from " + Join(window_.missing_consumers()) +
-                                    ": is it running with --lossless?");
-  } else if (paused_) {
-    status_.SetState("paused", where);
-  } else if (silent) {
-    status_.SetState("waiting", where + "; no CREDIT for " +
-                                    std::to_string(window_.longest_silence(now_us) / 1'000'000) +
-                                    " s: has a consumer (" + Join(options_.wait_for) + ") died?");
-  } else if (phase_ == Phase::kEnded) {
-    status_.SetState(everything_delivered() ? "finished" : "running", where + ", all sent");
-  } else {
-    status_.SetState("running", where);
-  }
-}
-
-void LogReplay::Stop() {
-  // Played to its end, it begins anew next time; stopped or killed before, it goes on.
-  if (position_ && phase_ == Phase::kEnded) position_->Clear();
-  status_.SetState("finished", options_.log + ": stopped");
-  status_.Publish();
 }
 
 }  // namespace evit

@@ -1,100 +1,11 @@
 // LogReplay on the bus in memory: nothing is lost there, so what arrives is exactly what was sent.
-#include "services/log_replay/log_replay.h"
-
-#include <gtest/gtest.h>
-
-#include <filesystem>
 #include <stdexcept>
 #include <thread>
 
-#include "common/bus/memory_bus.h"
-#include "common/service/credit_sender.h"
-#include "services/log_replay/test_recording.h"
+#include "services/log_replay/test_log_replay.h"
 
 namespace evit {
 namespace {
-
-class LogReplayTest : public ::testing::Test {
- protected:
-  LogReplayTest() : path_(::testing::TempDir() + "log_replay_test.lcmlog"), hub_(MakeMemoryHub()) {
-    options_.log = path_;
-    options_.lossless = true;
-    options_.wait_for = {"c"};
-    replay_bus_ = OpenMemoryBus(hub_);
-    bus_ = OpenMemoryBus(hub_);
-    Collect(channels_.events, &events_);
-    Collect(channels_.imu, &imu_);
-    Collect(channels_.ground_truth, &truth_);
-    Collect(channels_.stream_end, &end_);
-    Collect(channels_.status, &status_);
-  }
-  ~LogReplayTest() override { std::filesystem::remove(path_); }
-
-  template <typename Message>
-  void Collect(const std::string& channel, std::vector<Message>* to) {
-    bus_->Subscribe(channel, [to](const std::string&, const std::uint8_t* data, std::size_t size) {
-      Message message;
-      std::string why;
-      ASSERT_TRUE(DecodeChecked(data, size, &message, &why)) << why;
-      to->push_back(message);
-    });
-  }
-  template <typename Message>
-  void Publish(const std::string& channel, const Message& message) {
-    std::vector<std::uint8_t> bytes;
-    EncodeTo(message, &bytes);
-    bus_->Publish(channel, bytes.data(), bytes.size());
-  }
-  void Credit() {
-    credit_t credit{};
-    credit.seq = credit_seq_++;
-    credit.consumer = "c";
-    credit.stream_epoch = events_.empty() ? -1 : events_.back().epoch;
-    credit.next_events_seq = events_.empty() ? 0 : events_.back().seq + 1;
-    credit.next_imu_seq = imu_.empty() ? 0 : imu_.back().seq + 1;
-    Publish(channels_.credit, credit);
-  }
-  void Order(int command, std::int64_t seek_utime = 0, double speed = 0) {
-    replay_control_t order{};
-    order.seq = order_seq_++;
-    order.command = static_cast<std::int8_t>(command);
-    order.seek_utime = seek_utime;
-    order.speed = speed;
-    Publish(channels_.replay_control, order);
-  }
-  void Step(bool with_credit = true) {
-    if (with_credit) Credit();
-    replay_bus_->Poll(0);
-    replay_->Tick();
-    bus_->Poll(0);
-  }
-  void Start(const TestRecording& recording = {}) {
-    WriteTestRecording(path_, recording);
-    replay_ = std::make_unique<LogReplay>(options_, replay_bus_.get(), channels_);
-  }
-  std::int64_t Counter(const std::string& name) {
-    const_cast<StatusReporter&>(replay_->status()).Publish();
-    bus_->Poll(0);
-    const service_status_t& status = status_.back();
-    for (int i = 0; i < status.n_counters; ++i) {
-      if (status.counter_name[i] == name) return status.counter_value[i];
-    }
-    return -1;
-  }
-
-  std::string path_;
-  LogReplayOptions options_;
-  std::shared_ptr<MemoryHub> hub_;
-  std::unique_ptr<Bus> replay_bus_, bus_;
-  Channels channels_;
-  std::unique_ptr<LogReplay> replay_;
-  std::vector<event_packet_t> events_;
-  std::vector<imu_batch_t> imu_;
-  std::vector<body_pose_t> truth_;
-  std::vector<stream_end_t> end_;
-  std::vector<service_status_t> status_;
-  std::int64_t credit_seq_ = 0, order_seq_ = 0;
-};
 
 TEST_F(LogReplayTest, WaitsForItsConsumerThenSendsEverythingAndSaysSo) {
   Start();

@@ -57,9 +57,11 @@ Recording Simulated(const paper::Paper& config, const paper::Sequence& sequence,
   r.rig = made + "/rig.textproto";
 
   const paper::Simulated& motion = sequence.simulated();
-  std::vector<std::string> words{"evit",    "simulate",           "--name", sequence.name(),
-                                 "--scene", std::to_string(seed), "--seed", std::to_string(seed),
-                                 "--rig",   config.rig(),         "--rgbd"};
+  std::vector<std::string> words{"evit", "simulate", "--name", sequence.name(), "--scene",
+                                 std::to_string(seed), "--seed", std::to_string(seed), "--rig", config.rig(),
+                                 "--rgbd",
+                                 // A third less to render than by default, and the same errors.
+                                 "--max-step-px", "1"};
   std::string inputs = "rig " + HexText(HashOfFile(config.rig())) + "\n";
   const std::string recorded = motion.has_recorded() && !options.shared_data.empty()
                                    ? options.shared_data + "/" + motion.recorded()
