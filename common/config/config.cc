@@ -155,6 +155,12 @@ config::Tracker LoadTracker(const std::string& path) {
   positive(w.max_iterations(), "window.max_iterations");
   positive(w.imu_noise_factor(), "window.imu_noise_factor");
   Require(w.motion_model() >= 0 && w.motion_model() <= 2, path, "window.motion_model: 0, 1 or 2 is wanted");
+  const auto not_negative = [&](double v, const char* name) {
+    Require(v >= 0 && std::isfinite(v), path, std::string(name) + ": must not be negative");
+  };
+  not_negative(w.correlated_share(), "window.correlated_share");
+  not_negative(w.map_sigma_m(), "window.map_sigma_m");
+  not_negative(w.stamp_sigma_us(), "window.stamp_sigma_us");
   positive(c.bootstrap().min_frames(), "bootstrap.min_frames");
   positive(c.bootstrap().max_duration_s(), "bootstrap.max_duration_s");
   positive(c.bootstrap().max_gyro_bias(), "bootstrap.max_gyro_bias");

@@ -99,7 +99,8 @@ void PhotometricTracker::Accept(const PhotometricFrame& frame, double after_even
   out->information.topLeftCorner<6, 6>() = solution.information;
   out->information.bottomRightCorner<9, 9>().setIdentity();
   out->covariance = PoseCovariance(out->information) +
-                    StampCovariance(state_.velocity, rate_, 1e-6 * config_.window().stamp_sigma_us());
+                    StampCovariance(state_.velocity, state_.T_world_body.q.conjugate() * rate_,
+                                    1e-6 * config_.window().stamp_sigma_us());
   out->nodes.push_back({frame.t, frame.seq, state_});
 }
 

@@ -41,7 +41,8 @@ struct Bench {
     rig.T_body_camera = test::BodyCamera();
     return rig;
   }
-  explicit Bench(const SE3& start) : rig(MakeRig()), tracker(rig, Config(), start) {}
+  explicit Bench(const SE3& start, const config::Tracker& config = Config())
+      : rig(MakeRig()), tracker(rig, config, start) {}
 
   static SE3 Truth(Utime t) {
     const double s = ToSeconds(t);
@@ -89,6 +90,27 @@ TEST(PhotometricTracker, TracksASyntheticRoomFromARoughStart) {
   EXPECT_GT(out.image_speed, 5);
   EXPECT_GT(out.quality.inlier_share, 0.5);
   EXPECT_GT(out.covariance.diagonal().minCoeff(), 0);
+}
+
+TEST(PhotometricTracker, LateEventsCountAlongTheMotionInTheBodysFrame) {
+  constexpr double kSigma = 0.01;  // s
+  constexpr Utime kEnd = 1'300'000;
+  Matrix6d with = Matrix6d::Zero(), without = Matrix6d::Zero();
+  for (Matrix6d* covariance : {&without, &with}) {
+    config::Tracker config = Config();
+    config.mutable_window()->set_stamp_sigma_us(covariance == &with ? 1e6 * kSigma : 0);
+    Bench bench(Bench::Truth(1'000'000), config);
+    for (Utime t = 1'000'000; t <= kEnd; t += Bench::kInterval) *covariance = bench.Step(t).covariance;
+  }
+  const SE3 truth = Bench::Truth(kEnd), next = Bench::Truth(kEnd + 1000);
+  Vector6d moved;
+  moved << next.p - truth.p, LogSO3(truth.q.conjugate() * next.q);
+  moved *= kSigma / 1e-3;
+  const Matrix6d late = with - without;
+  EXPECT_LT((late - moved * moved.transpose()).norm(), 0.3 * moved.squaredNorm());
+  const double of_rotation = late.bottomRightCorner<3, 3>().trace();
+  const Eigen::Vector3d turned = moved.tail<3>().normalized();
+  EXPECT_GT(turned.dot(late.bottomRightCorner<3, 3>() * turned), 0.9 * of_rotation);
 }
 
 TEST(PhotometricTracker, TheSameInputGivesTheSameBits) {

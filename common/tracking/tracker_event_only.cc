@@ -17,7 +17,8 @@ constexpr int kPatience = 30;             // frames that do not fit before it sa
 }  // namespace
 
 void Tracker::ProcessEventOnly(const KeyframeInput& keyframe, TrackerOutput* out) {
-  const double dt = state_time_ > 0 ? ToSeconds(keyframe.t - state_time_) : 0;
+  // Since the newest frame that fitted: the state is that one's.
+  const double dt = aligned_at_ > 0 ? ToSeconds(keyframe.t - aligned_at_) : 0;
   const SE3 previous = state_.T_world_body;
   BodyState predicted = state_;
   if (config_.window().motion_model() >= 1 && dt > 0) {  // constant velocity
@@ -42,6 +43,7 @@ void Tracker::ProcessEventOnly(const KeyframeInput& keyframe, TrackerOutput* out
       rate_ = LogSO3(previous.q.conjugate() * fit.T_world_body.q) / dt;
     }
     state_.T_world_body = fit.T_world_body;
+    aligned_at_ = keyframe.t;
     SetMode(TrackerMode::kTracking, "tracking (event-only)");
     out->information.topLeftCorner<6, 6>() =
         EvaluateAlignment(alignment_, field, 0, points, fit.T_world_body, true).hessian;

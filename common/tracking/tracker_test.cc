@@ -95,6 +95,28 @@ TEST(Tracker, FindsTheMapAgainWhileTheBodyMoves) {
   EXPECT_LT((out.nodes.back().state.T_world_body.p - motion.State(ToSeconds(t)).T_world_body.p).norm(), 0.02);
 }
 
+TEST(Tracker, LateEventsCountAlongTheMotion) {
+  constexpr double kSigma = 0.01;  // s
+  const Motion motion;
+  Utime t = 0;
+  Matrix6d with = Matrix6d::Zero(), without = Matrix6d::Zero();
+  for (Matrix6d* covariance : {&without, &with}) {
+    config::Tracker config = TestConfig();
+    config.mutable_window()->set_stamp_sigma_us(covariance == &with ? 1e6 * kSigma : 0);
+    t = 1'000'000;
+    Bench bench(config, motion.State(ToSeconds(t)).T_world_body);
+    TrackerOutput out;
+    for (int k = 0; k < 80; ++k)
+      out = bench.Step(t += out.mode == TrackerMode::kTracking ? 25'000 : 10'000, bench.room);
+    ASSERT_EQ(out.mode, TrackerMode::kTracking) << out.reason;
+    *covariance = out.covariance;
+  }
+  Vector6d moved;
+  moved << motion.State(ToSeconds(t)).velocity, motion.Imu(t, {}).gyro;
+  moved *= kSigma;
+  EXPECT_LT((with - without - moved * moved.transpose()).norm(), 0.1 * moved.squaredNorm());
+}
+
 TEST(Tracker, EventOnlyTracksWithoutTheImu) {
   const Motion motion;
   config::Tracker config = TestConfig();

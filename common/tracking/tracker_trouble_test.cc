@@ -1,6 +1,8 @@
 // The tracker where something is missing: events, IMU samples, time.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "common/tracking/test_bench.h"
 
 namespace evit {

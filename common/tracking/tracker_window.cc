@@ -46,9 +46,8 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
     common_ = CommonCovariance(newest.alignment, config_.window().correlated_share(),
                                config_.window().map_sigma_m());
   }
-  const Eigen::Vector3d rate = keyframe.imu.back().gyro - state_.bias.gyro;
   out->covariance = PoseCovariance(out->information) + common_ +
-                    StampCovariance(state_.velocity, rate, 1e-6 * config_.window().stamp_sigma_us());
+                    StampCovariance(state_.velocity, rate_, 1e-6 * config_.window().stamp_sigma_us());
 
   const std::string trouble = Trouble(keyframe, summary.usable, coasting, *out);
   if (!trouble.empty()) {

@@ -75,7 +75,7 @@ TEST_F(WindowOptimizerTest, LostKeyframeIsBridgedFromItsOwnImu) {
 TEST_F(WindowOptimizerTest, OverloadTakesPointsThenKeyframesAndGivesThemBack) {
   Start(false);
   const Utime begin = UntilTracking();
-  SendImu(begin - 50'000, begin + 8'000'000);
+  SendImu(begin - 50'000, begin + 20'000'000);
   Send(channels_.keyframe, Keyframe(last_ + 25'000));
   Pump();
   const int points = windows_.back().n_points;
@@ -93,9 +93,12 @@ TEST_F(WindowOptimizerTest, OverloadTakesPointsThenKeyframesAndGivesThemBack) {
   EXPECT_EQ(modes_.back().mode, tracker_mode_t::TRACKING) << modes_.back().reason;
   EXPECT_GT(Counter("KEYFRAME.dropped"), 0);
   EXPECT_GT(Counter("overload.level"), 2);
-  for (int k = 0; k < 450; ++k) {
-    Send(channels_.keyframe, Keyframe(last_ + 10'000));
-    Pump();
+  for (int round = 0; round < 3 && (round == 0 || Counter("overload.level") > 0);
+       ++round) {  // a slow host needs more
+    for (int k = 0; k < 450; ++k) {
+      Send(channels_.keyframe, Keyframe(last_ + 10'000));
+      Pump();
+    }
   }
   EXPECT_EQ(Counter("overload.level"), 0);
   EXPECT_EQ(modes_.back().keyframe_stride, 1);

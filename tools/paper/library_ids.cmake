@@ -1,5 +1,5 @@
 # Writes a header with one constant per list of libraries: the hash of their contents. Usage:
-# cmake -DOUT=FILE -DRECORDING="A;B" -DRUN="C;D" -P library_ids.cmake
+# cmake -DOUT=FILE -DRECORDING="A;B" -DPHOTOMETRIC="C" -DRUN="D;E" -P library_ids.cmake
 function(hash_of RESULT)
   set(ALL "")
   foreach(FILE ${ARGN})
@@ -11,11 +11,13 @@ function(hash_of RESULT)
   set(${RESULT} ${HASH} PARENT_SCOPE)
 endfunction()
 hash_of(RECORDING_HASH ${RECORDING})
+hash_of(PHOTOMETRIC_HASH ${PHOTOMETRIC})
 hash_of(RUN_HASH ${RUN})
 file(WRITE ${OUT} "#pragma once
 
 namespace evit {
 inline constexpr char kRecordingLibraries[] = \"${RECORDING_HASH}\";
+inline constexpr char kPhotometricLibraries[] = \"${PHOTOMETRIC_HASH}\";
 inline constexpr char kRunLibraries[] = \"${RUN_HASH}\";
 }  // namespace evit
 ")

@@ -7,6 +7,8 @@ namespace evit {
 
 std::string RecordingProgramId() { return kRecordingLibraries; }
 
+std::string PhotometricProgramId() { return kPhotometricLibraries; }
+
 std::string TrackingProgramId(const std::string& programs) {
   std::string id = kRunLibraries;
   for (const char* name : {"log_replay", "frame_builder", "map_server", "window_optimizer"})

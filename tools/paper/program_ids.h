@@ -8,6 +8,9 @@ namespace evit {
 /// nothing else, make recordings anew.
 std::string RecordingProgramId();
 
+/// The same of the code that makes photometric maps of their images.
+std::string PhotometricProgramId();
+
 /// The same of the code that tracks: the services beside `programs`/evit, and what runs them.
 std::string TrackingProgramId(const std::string& programs);
 

@@ -35,7 +35,7 @@ PaperJob PhotometricJob(const Recording& recording, const std::string& images) {
   PaperJob job;
   job.id = "map " + recording.name;
   job.folder = fs::path(recording.photometric_map).parent_path().string();
-  job.key = "recording " + HexText(HashOf(recording.job.key)) + "\n";
+  job.key = "recording " + HexText(HashOf(recording.job.key)) + "\nprogram " + PhotometricProgramId() + "\n";
   job.cost = 10;
   const std::vector<std::string> words{"evit", "map",   "photometric",
                                        images, "--out", recording.photometric_map};
