@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "common/bus/codec.h"
 #include "common/bus/memory_bus.h"
+#include "common/bus/test_messages.h"
 #include "common/service/credit_sender.h"
 #include "common/service/runner.h"
 #include "common/service/sequence_counter.h"
@@ -17,21 +17,11 @@
 namespace evit {
 namespace {
 
-template <typename Message>
-Bus::Handler Collect(std::vector<Message>* to) {
-  return [to](const std::string&, const std::uint8_t* data, std::size_t size) {
-    Message message;
-    std::string why;
-    ASSERT_TRUE(DecodeChecked(data, size, &message, &why)) << why;
-    to->push_back(message);
-  };
-}
-
 class ServiceTest : public ::testing::Test {
  protected:
   ServiceTest() : bus_(OpenMemoryBus(MakeMemoryHub())) {
-    bus_->Subscribe("p/STATUS", Collect(&status_));
-    bus_->Subscribe("p/CREDIT", Collect(&credit_));
+    test::Keep(bus_.get(), "p/STATUS", &status_);
+    test::Keep(bus_.get(), "p/CREDIT", &credit_);
   }
   std::unique_ptr<Bus> bus_;
   Channels channels_{"p/"};

@@ -76,6 +76,14 @@ struct Bench {
     last = t;
     return tracker.Process(k);
   }
+
+  /// High-rate frames of the whole room, until it tracks or 2 s have passed. Moves *t, us; the last output.
+  TrackerOutput UntilTracking(Utime* t) {
+    TrackerOutput out;
+    for (const Utime end = *t + 2'000'000; out.mode != TrackerMode::kTracking && *t < end;)
+      out = Step(*t += 10'000, room);
+    return out;
+  }
 };
 
 }  // namespace evit

@@ -60,8 +60,7 @@ TEST(Tracker, SaysLostWhenTheWorldIsNotTheMap) {
   const Motion motion;
   Bench bench(TestConfig(), motion.State(1.0).T_world_body);
   Utime t = 1'000'000;
-  TrackerOutput out;
-  while (out.mode != TrackerMode::kTracking && t < 3'000'000) out = bench.Step(t += 10'000, bench.room);
+  TrackerOutput out = bench.UntilTracking(&t);
   ASSERT_EQ(out.mode, TrackerMode::kTracking);
   const auto other = synthetic::RoomPoints(60, 99);
   for (int k = 0; k < 40 && out.mode == TrackerMode::kTracking; ++k) out = bench.Step(t += 25'000, other);
@@ -77,8 +76,7 @@ TEST(Tracker, FindsTheMapAgainWhileTheBodyMoves) {
   Bench bench(config, motion.State(1.0).T_world_body);
   bench.motion = motion;
   Utime t = 1'000'000;
-  TrackerOutput out;
-  while (out.mode != TrackerMode::kTracking && t < 3'000'000) out = bench.Step(t += 10'000, bench.room);
+  TrackerOutput out = bench.UntilTracking(&t);
   ASSERT_EQ(out.mode, TrackerMode::kTracking);
   for (int k = 0; k < 20; ++k) out = bench.Step(t += 25'000, bench.room);
   const auto other = synthetic::RoomPoints(60, 99);

@@ -16,8 +16,7 @@ TEST(Tracker, CoastsOnTheImuWhileThereAreNoEvents) {
   config.mutable_failure()->set_max_coast_s(1.5);
   Bench bench(config, motion.State(1.0).T_world_body);
   Utime t = 1'000'000;
-  TrackerOutput out;
-  while (out.mode != TrackerMode::kTracking && t < 3'000'000) out = bench.Step(t += 10'000, bench.room);
+  TrackerOutput out = bench.UntilTracking(&t);
   for (int k = 0; k < 20; ++k) out = bench.Step(t += 25'000, bench.room);
   ASSERT_EQ(out.mode, TrackerMode::kTracking);
   const auto sigma = [&] { return std::sqrt(out.covariance.topLeftCorner<3, 3>().trace()); };
@@ -51,8 +50,7 @@ TEST(Tracker, AClockThatJumpsIsSaidAndTrackingResumes) {
     const Motion motion;
     Bench bench(TestConfig(), motion.State(1.0).T_world_body);
     Utime t = 1'000'000;
-    TrackerOutput out;
-    while (out.mode != TrackerMode::kTracking && t < 3'000'000) out = bench.Step(t += 10'000, bench.room);
+    TrackerOutput out = bench.UntilTracking(&t);
     ASSERT_EQ(out.mode, TrackerMode::kTracking);
     bench.clock += jump;
     bench.last = 0;  // frame_builder starts anew
@@ -68,8 +66,7 @@ TEST(Tracker, ASolveCutShortKeepsTheBestSoFar) {
   const Motion motion;
   Bench bench(TestConfig(), motion.State(1.0).T_world_body);
   Utime t = 1'000'000;
-  TrackerOutput out;
-  while (out.mode != TrackerMode::kTracking && t < 3'000'000) out = bench.Step(t += 10'000, bench.room);
+  TrackerOutput out = bench.UntilTracking(&t);
   ASSERT_EQ(out.mode, TrackerMode::kTracking);
   int whole = 0, cut = 0;
   for (int k = 0; k < 20; ++k) whole += bench.Step(t += 25'000, bench.room).iterations;
@@ -89,8 +86,7 @@ TEST(Tracker, ImuGapIsReportedAndTrackingResumes) {
   const Motion motion;
   Bench bench(TestConfig(), motion.State(1.0).T_world_body);
   Utime t = 1'000'000;
-  TrackerOutput out;
-  while (out.mode != TrackerMode::kTracking && t < 3'000'000) out = bench.Step(t += 10'000, bench.room);
+  TrackerOutput out = bench.UntilTracking(&t);
   ASSERT_EQ(out.mode, TrackerMode::kTracking);
   KeyframeInput gap;
   gap.t = t += 40'000;

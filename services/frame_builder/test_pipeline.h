@@ -9,7 +9,7 @@
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
-#include "common/bus/codec.h"
+#include "common/bus/test_messages.h"
 #include "common/events/test_streams.h"
 #include "common/events/wire/event_wire.h"
 
@@ -41,23 +41,6 @@ inline Recording MakeRecording(std::size_t packet, Utime duration = 1'000'000) {
     r.imu.push_back(m);
   }
   return r;
-}
-
-template <typename Message>
-void Publish(Bus* bus, const std::string& channel, const Message& message) {
-  std::vector<std::uint8_t> bytes;
-  EncodeTo(message, &bytes);
-  bus->Publish(channel, bytes.data(), bytes.size());
-}
-
-template <typename Message>
-void Listen(Bus* bus, const std::string& channel, std::function<void(const Message&)> handler) {
-  bus->Subscribe(channel, [=](const std::string&, const std::uint8_t* data, std::size_t size) {
-    Message message;
-    std::string why;
-    ASSERT_TRUE(DecodeChecked(data, size, &message, &why)) << channel << ": " << why;
-    handler(message);
-  });
 }
 
 /// Sends a recording like log_replay does without losses: from the first message frame_builder's credit

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "common/bus/lcm_bus.h"
+#include "common/bus/test_messages.h"
 #include "common/service/child_process.h"
 #include "common/service/credit_sender.h"
 #include "common/service/sequence_counter.h"
@@ -27,8 +28,8 @@ class Consumer {
         credit_(bus_.get(), Channels(), "c", 1) {
     Take<event_packet_t>(Channels().events, &events_counter_, &events);
     Take<imu_batch_t>(Channels().imu, &imu_counter_, &imu);
-    Listen<stream_end_t>(Channels().stream_end, &ends);
-    Listen<service_status_t>(Channels().status, &statuses);
+    test::Keep(bus_.get(), Channels().stream_end, &ends);
+    test::Keep(bus_.get(), Channels().status, &statuses);
   }
 
   /// Polls until `holds` or the time is over.
@@ -53,9 +54,7 @@ class Consumer {
     order.seq = orders_++;
     order.command = static_cast<std::int8_t>(command);
     order.seek_utime = seek_utime;
-    std::vector<std::uint8_t> bytes;
-    EncodeTo(order, &bytes);
-    bus_->Publish(Channels().replay_control, bytes.data(), bytes.size());
+    test::Publish(bus_.get(), Channels().replay_control, order);
   }
   Bus* bus() { return bus_.get(); }
   bool HasState(const std::string& state) const {
@@ -75,15 +74,6 @@ class Consumer {
  private:
   static std::int64_t next(const SequenceCounter& counter) { return counter.next(); }
 
-  template <typename Message>
-  void Listen(const std::string& channel, std::vector<Message>* to) {
-    bus_->Subscribe(channel, [to](const std::string&, const std::uint8_t* data, std::size_t size) {
-      Message message;
-      std::string why;
-      ASSERT_TRUE(DecodeChecked(data, size, &message, &why)) << why;
-      to->push_back(message);
-    });
-  }
   template <typename Message>
   void Take(const std::string& channel, SequenceCounter* counter, std::vector<Message>* to) {
     bus_->Subscribe(channel, [=](const std::string&, const std::uint8_t* data, std::size_t size) {

@@ -116,9 +116,9 @@ TEST_F(LogReplayTest, ForgedControlAndCreditAreCountedAndIgnored) {
   forged.consumer = "c";
   forged.stream_epoch = events_[0].epoch;
   forged.next_events_seq = 1'000'000;
-  Publish(channels_.credit, forged);
+  test::Publish(bus_.get(), channels_.credit, forged);
   forged.consumer = "stranger";
-  Publish(channels_.credit, forged);
+  test::Publish(bus_.get(), channels_.credit, forged);
   order_seq_ = 0;
   replay_bus_->Poll(0);
   EXPECT_EQ(Counter("REPLAY_CONTROL.invalid"), 3);
@@ -144,7 +144,7 @@ TEST_F(LogReplayTest, ARestartedConsumerGetsANewStreamFromWhatWasNotConsumed) {
   newcomer.consumer = "c";
   newcomer.stream_epoch = -1;
   const std::int64_t epoch = events_[0].epoch;
-  Publish(channels_.credit, newcomer);
+  test::Publish(bus_.get(), channels_.credit, newcomer);
   Step(false);
   EXPECT_EQ(Counter("CREDIT.restarts"), 1);
   ASSERT_GT(events_.size(), first);

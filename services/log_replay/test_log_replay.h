@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/bus/memory_bus.h"
+#include "common/bus/test_messages.h"
 #include "common/service/credit_sender.h"
 #include "services/log_replay/log_replay.h"
 #include "services/log_replay/test_recording.h"
@@ -24,29 +25,14 @@ class LogReplayTest : public ::testing::Test {
     options_.resend_us = 3'600'000'000;  // nothing gets lost here, and a slow host is not to send twice
     replay_bus_ = OpenMemoryBus(hub_);
     bus_ = OpenMemoryBus(hub_);
-    Collect(channels_.events, &events_);
-    Collect(channels_.imu, &imu_);
-    Collect(channels_.ground_truth, &truth_);
-    Collect(channels_.stream_end, &end_);
-    Collect(channels_.status, &status_);
+    test::Keep(bus_.get(), channels_.events, &events_);
+    test::Keep(bus_.get(), channels_.imu, &imu_);
+    test::Keep(bus_.get(), channels_.ground_truth, &truth_);
+    test::Keep(bus_.get(), channels_.stream_end, &end_);
+    test::Keep(bus_.get(), channels_.status, &status_);
   }
   ~LogReplayTest() override { std::filesystem::remove(path_); }
 
-  template <typename Message>
-  void Collect(const std::string& channel, std::vector<Message>* to) {
-    bus_->Subscribe(channel, [to](const std::string&, const std::uint8_t* data, std::size_t size) {
-      Message message;
-      std::string why;
-      ASSERT_TRUE(DecodeChecked(data, size, &message, &why)) << why;
-      to->push_back(message);
-    });
-  }
-  template <typename Message>
-  void Publish(const std::string& channel, const Message& message) {
-    std::vector<std::uint8_t> bytes;
-    EncodeTo(message, &bytes);
-    bus_->Publish(channel, bytes.data(), bytes.size());
-  }
   void Credit() {
     credit_t credit{};
     credit.seq = credit_seq_++;
@@ -54,7 +40,7 @@ class LogReplayTest : public ::testing::Test {
     credit.stream_epoch = events_.empty() ? -1 : events_.back().epoch;
     credit.next_events_seq = events_.empty() ? 0 : events_.back().seq + 1;
     credit.next_imu_seq = imu_.empty() ? 0 : imu_.back().seq + 1;
-    Publish(channels_.credit, credit);
+    test::Publish(bus_.get(), channels_.credit, credit);
   }
   void Order(int command, std::int64_t seek_utime = 0, double speed = 0) {
     replay_control_t order{};
@@ -62,7 +48,7 @@ class LogReplayTest : public ::testing::Test {
     order.command = static_cast<std::int8_t>(command);
     order.seek_utime = seek_utime;
     order.speed = speed;
-    Publish(channels_.replay_control, order);
+    test::Publish(bus_.get(), channels_.replay_control, order);
   }
   void Step(bool with_credit = true) {
     if (with_credit) Credit();

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/bus/channels.h"
-#include "common/bus/codec.h"
 #include "common/bus/memory_bus.h"
+#include "common/bus/test_messages.h"
 
 namespace evit::test {
 
@@ -17,26 +17,15 @@ namespace evit::test {
 class OptimizerPeer : public ::testing::Test {
  protected:
   void Listen() {
-    Keep<window_state_t>(channels_.window_state, &windows_);
-    Keep<tracker_mode_t>(channels_.tracker_mode, &modes_);
-    Keep<body_pose_t>(channels_.body_pose, &poses_);
-    Keep<service_status_t>(channels_.status, &statuses_);
-  }
-
-  template <typename Message>
-  void Keep(const std::string& channel, std::vector<Message>* list) {
-    bus_->Subscribe(channel, [list](const std::string&, const std::uint8_t* data, std::size_t size) {
-      Message message;
-      ASSERT_TRUE(DecodeChecked(data, size, &message));
-      list->push_back(message);
-    });
+    Keep(bus_.get(), channels_.window_state, &windows_);
+    Keep(bus_.get(), channels_.tracker_mode, &modes_);
+    Keep(bus_.get(), channels_.body_pose, &poses_);
+    Keep(bus_.get(), channels_.status, &statuses_);
   }
 
   template <typename Message>
   void Send(const std::string& channel, const Message& message) {
-    std::vector<std::uint8_t> bytes;
-    EncodeTo(message, &bytes);
-    bus_->Publish(channel, bytes.data(), bytes.size());
+    test::Publish(bus_.get(), channel, message);
   }
 
   /// Of the newest STATUS; 0 where it has none of that name.

@@ -4,9 +4,9 @@
 
 #include <thread>
 
-#include "common/bus/codec.h"
 #include "common/bus/memory_bus.h"
 #include "common/bus/sample_messages.h"
+#include "common/bus/test_messages.h"
 
 namespace evit {
 namespace {
@@ -15,9 +15,7 @@ class LatencyTest : public ::testing::Test {
  protected:
   template <typename Message>
   void Send(const std::string& channel, const Message& message) {
-    std::vector<std::uint8_t> bytes;
-    EncodeTo(message, &bytes);
-    bus_->Publish(channel, bytes.data(), bytes.size());
+    test::Publish(bus_.get(), channel, message);
     while (bus_->Poll(0) > 0) {
     }
   }

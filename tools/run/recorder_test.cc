@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/bus/codec.h"
 #include "common/bus/memory_bus.h"
+#include "common/bus/test_messages.h"
 
 namespace evit {
 namespace {
@@ -15,9 +15,7 @@ class RecorderTest : public ::testing::Test {
  protected:
   template <typename Message>
   void Send(const std::string& channel, const Message& message) {
-    std::vector<std::uint8_t> bytes;
-    EncodeTo(message, &bytes);
-    sender_->Publish(channel, bytes.data(), bytes.size());
+    test::Publish(sender_.get(), channel, message);
     receiver_->Poll(0);
   }
 
