@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -9,6 +10,19 @@
 #include "tools/rgbd/rgbd_folder.h"
 
 namespace evit {
+namespace {
+
+// Said before minutes of fusing, not after. Empty: fine.
+std::string NewPly(const std::string& path) {
+  const std::filesystem::path file(path);
+  if (file.extension() != ".ply")
+    return path + ": photometric maps are written as PLY; give a name that ends in .ply";
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder)) return folder.string() + ": no such folder; make it first";
+  return "";
+}
+
+}  // namespace
 
 void AddMapPhotometric(CLI::App* map) {
   struct Options {
@@ -22,7 +36,7 @@ void AddMapPhotometric(CLI::App* map) {
   command->option_defaults()->always_capture_default();
   command->add_option("DIR", o->folder, "Folder of images/, depth/ (16 bit, mm), poses.txt and K.txt")
       ->required();
-  command->add_option("--out", o->out, "PLY to write")->required();
+  command->add_option("--out", o->out, "PLY to write")->required()->check(NewPly);
   command->add_option("--voxel", o->fusion.voxel, "One point per cell of this size, m")
       ->check(CLI::PositiveNumber);
   command->add_option("--max-depth", o->fusion.max_depth, "Leave out what is farther from the camera, m")

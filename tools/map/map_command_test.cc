@@ -110,5 +110,17 @@ TEST(MapCommandTest, BadInput) {
   EXPECT_THAT(result.output, HasSubstr("--transform"));
 }
 
+TEST(MapCommandTest, APhotometricMapThatCannotBeWrittenIsSaidBeforeTheWork) {
+  Result result = Map("photometric /nowhere --out /tmp/map.pcd");
+  EXPECT_NE(result.code, 0);
+  EXPECT_THAT(result.output, HasSubstr(".ply"));
+  result = Map("photometric /nowhere --out /not/there/map.ply");
+  EXPECT_NE(result.code, 0);
+  EXPECT_THAT(result.output, HasSubstr("/not/there: no such folder"));
+  result = Map("photometric /nowhere --out /tmp/map.ply");
+  EXPECT_NE(result.code, 0);
+  EXPECT_THAT(result.output, HasSubstr("/nowhere"));
+}
+
 }  // namespace
 }  // namespace evit
