@@ -98,9 +98,12 @@ void PhotometricTracker::Accept(const PhotometricFrame& frame, double after_even
   out->image_speed = image_speed_;
   out->information.topLeftCorner<6, 6>() = solution.information;
   out->information.bottomRightCorner<9, 9>().setIdentity();
-  out->covariance = PoseCovariance(out->information) +
-                    StampCovariance(state_.velocity, state_.T_world_body.q.conjugate() * rate_,
-                                    1e-6 * config_.window().stamp_sigma_us());
+  covariance_ = PoseCovariance(out->information) +
+                CommonCovariance(solution.information, config_.window().correlated_share(),
+                                 config_.window().map_sigma_m()) +
+                StampCovariance(state_.velocity, state_.T_world_body.q.conjugate() * rate_,
+                                1e-6 * config_.window().stamp_sigma_us());
+  out->covariance = covariance_;
   out->nodes.push_back({frame.t, frame.seq, state_});
 }
 
@@ -123,8 +126,13 @@ void PhotometricTracker::Coast(const PhotometricFrame& frame, const SE3& predict
   reason_ = "coasting at constant velocity: " + why;
   out->has_pose = true;
   out->image_speed = image_speed_;
+  // Since the last good frame the velocity may have changed by as much as a frame is allowed to change it.
+  Vector6d unknown;
+  unknown << Eigen::Vector3d::Constant(bad * config_.photometric().sigma_velocity()),
+      Eigen::Vector3d::Constant(bad * config_.photometric().sigma_rate());
+  out->covariance = covariance_ + Matrix6d(unknown.cwiseAbs2().asDiagonal());
   out->information.setIdentity();
-  out->covariance = PoseCovariance(out->information);
+  out->information.topLeftCorner<6, 6>() = out->covariance.inverse();
   out->nodes.push_back({frame.t, frame.seq, state_});
 }
 

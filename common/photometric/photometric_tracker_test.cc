@@ -133,11 +133,17 @@ TEST(PhotometricTracker, SaysLostWhereTheMapForetellsNothingAndComesBackWithAHin
   ASSERT_EQ(out.mode, TrackerMode::kTracking);
   bench.room.phase = 2;  // other pictures on the walls
   bench.before.log_intensity.clear();
+  const auto sigma = [&] { return std::sqrt(out.covariance.topLeftCorner<3, 3>().trace()); };
+  double before = sigma();
+  EXPECT_LT(before, 0.05);
   bool coasted = false;
   for (; t < 1'700'000; t += Bench::kInterval) {
     out = bench.Step(t);
-    coasted |= out.mode == TrackerMode::kTracking && out.reason.rfind("coasting", 0) == 0;
     if (out.mode == TrackerMode::kLost) break;
+    if (out.reason.rfind("coasting", 0) != 0) continue;
+    coasted = true;
+    EXPECT_GT(sigma(), before);
+    before = sigma();
   }
   EXPECT_EQ(out.mode, TrackerMode::kLost);
   EXPECT_FALSE(out.has_pose);

@@ -10,12 +10,12 @@ Matrix6d PoseCovariance(const Matrix15d& information) {
   return 0.5 * (covariance.topLeftCorner<6, 6>() + covariance.topLeftCorner<6, 6>().transpose());
 }
 
-Matrix6d CommonCovariance(const AlignmentTerm& alignment, double share, double map_sigma) {
+Matrix6d CommonCovariance(const Matrix6d& alignment, double share, double map_sigma) {
   Matrix6d common = Matrix6d::Zero();
   if (share > 0) {
     // Where a keyframe says nothing of a direction the map cannot pull the pose along it either.
     constexpr double kMostPosition = 0.03, kMostRotation = 0.02;  // m, rad
-    Matrix6d information = alignment.hessian / share;
+    Matrix6d information = alignment / share;
     information.diagonal().head<3>().array() += 1 / (kMostPosition * kMostPosition);
     information.diagonal().tail<3>().array() += 1 / (kMostRotation * kMostRotation);
     common = information.ldlt().solve(Matrix6d::Identity());

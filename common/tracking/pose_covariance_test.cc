@@ -18,8 +18,8 @@ TEST(PoseCovariance, IsThePosesPartOfTheInverse) {
 }
 
 TEST(PoseCovariance, WhatOneKeyframeLeavesOpenStaysButNotWithoutBound) {
-  AlignmentTerm alignment;
-  alignment.hessian.diagonal() << 1e6, 1e6, 0, 1e8, 1e8, 1e8;  // nothing seen along z
+  Matrix6d alignment = Matrix6d::Zero();
+  alignment.diagonal() << 1e6, 1e6, 0, 1e8, 1e8, 1e8;  // nothing seen along z
   const Matrix6d half = CommonCovariance(alignment, 0.5, 0.002);
   EXPECT_NEAR(half(0, 0), 0.5e-6 + 4e-6, 1e-8);
   EXPECT_NEAR(half(2, 2), 9e-4 + 4e-6, 1e-8);

@@ -45,12 +45,14 @@ void Tracker::ProcessEventOnly(const KeyframeInput& keyframe, TrackerOutput* out
     state_.T_world_body = fit.T_world_body;
     aligned_at_ = keyframe.t;
     SetMode(TrackerMode::kTracking, "tracking (event-only)");
-    out->information.topLeftCorner<6, 6>() =
+    const Matrix6d alignment =
         EvaluateAlignment(alignment_, field, 0, points, fit.T_world_body, true).hessian;
+    out->information.topLeftCorner<6, 6>() = alignment;
     out->information.bottomRightCorner<9, 9>().setIdentity();
-    out->covariance = PoseCovariance(out->information) +
-                      StampCovariance(state_.velocity, rate_, 1e-6 * config_.window().stamp_sigma_us());
-    out->covariance.diagonal().head<3>().array() += std::pow(config_.window().map_sigma_m(), 2);
+    out->covariance =
+        PoseCovariance(out->information) +
+        CommonCovariance(alignment, config_.window().correlated_share(), config_.window().map_sigma_m()) +
+        StampCovariance(state_.velocity, rate_, 1e-6 * config_.window().stamp_sigma_us());
     out->nodes.push_back({keyframe.t, keyframe.seq, state_});
     Finish(points, out);
   }

@@ -43,7 +43,7 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
   state_ = newest.state;
   out->information = window_.NewestInformation();
   if (coasting.empty()) {
-    common_ = CommonCovariance(newest.alignment, config_.window().correlated_share(),
+    common_ = CommonCovariance(newest.alignment.hessian, config_.window().correlated_share(),
                                config_.window().map_sigma_m());
   }
   out->covariance = PoseCovariance(out->information) + common_ +
