@@ -41,7 +41,7 @@ void AddMapPhotometric(CLI::App* map) {
       ->check(CLI::PositiveNumber);
   command->add_option("--max-depth", o->fusion.max_depth, "Leave out what is farther from the camera, m")
       ->check(CLI::PositiveNumber);
-  command->add_option("--every", o->every, "Use every so manieth image")->check(CLI::PositiveNumber);
+  command->add_option("--every", o->every, "Use every Nth image")->check(CLI::PositiveNumber);
   command->callback([o] {
     const RgbdFolder folder(o->folder);
     RgbdFusion fusion(o->fusion);

@@ -40,7 +40,10 @@ void AddPaperCommand(CLI::App* app) {
   paper->footer(
       "Ctrl-C keeps all that is finished; the same command goes on from there. A simulation or run is done "
       "anew only\n"
-      "when its inputs, its settings or the program changed. DIR/work may be deleted at any time.\n"
+      "when its inputs, its settings or the program changed. OUT/work may be deleted at any time.\n"
+      "Without --vector all is simulated (three rooms, 10 s): motion recorded with VECtor where the folder\n"
+      "EVIT_SHARED_DATA (default ../shared/data) has it, built-in motion where it has not. What runs is in\n"
+      "config/paper.textproto.\n"
       "Exit code: 0 all done, 1 something failed, 130 interrupted.");
   paper->callback([o] {
     if (o->config.empty()) o->config = ConfigFile("paper.textproto");

@@ -141,14 +141,21 @@ void AddSimulateCommand(CLI::App* app) {
   command->add_option("--seed", s.seed, "Seed of all noise");
   command->add_option("--threads", s.threads, "Threads; the result is the same with any number");
   command->add_option("--preview", s.previews, "Pictures to write: image | events | map on events");
-  command->add_option("--lamp", options->lamp, "The lamp goes off and on again, s")->check(kRange);
+  command
+      ->add_option("--lamp", options->lamp,
+                   "The lamp goes off and on again, s (--lamp-share of the light stays)")
+      ->check(kRange)
+      ->group("World");
   command->add_option("--dark", options->dark, "The lens is covered, s; it takes 0.1 s before and after")
-      ->check(kRange);
+      ->check(kRange)
+      ->group("World");
   command->add_option("--room", options->room, "furnished, or plain: hardly any texture")
-      ->check(CLI::IsMember({"furnished", "plain"}));
-  command->add_flag("--moving-box", s.moving_box,
-                    "A textured box moves before the camera; it is not in the map");
-  command->add_option("--lamp-share", s.lamp_share, "Share of the light that stays");
+      ->check(CLI::IsMember({"furnished", "plain"}))
+      ->group("World");
+  command
+      ->add_flag("--moving-box", s.moving_box, "A textured box moves before the camera; it is not in the map")
+      ->group("World");
+  command->add_option("--lamp-share", s.lamp_share, "Share of the light that stays")->group("World");
 
   command
       ->add_option("--seconds", options->seconds,

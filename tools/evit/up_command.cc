@@ -107,10 +107,10 @@ void AddUpCommand(CLI::App* app) {
   auto o = std::make_shared<UpOptions>();
   CLI::App* up =
       app->add_subcommand("up", "Run a procman deployment headless: starts, watches and stops its commands");
-  up->add_option("file", o->file, "procman file, either dialect, e.g. procman/evit.procman")->required();
-  up->add_option("script", o->script, "script of it to run, e.g. replay or robot")->required();
-  up->add_option("--deputy", o->deputy, "run this deputy's commands (default: the only one of the file)");
-  up->add_option("--logs", o->logs, "folder for NAME.log and what restarts need")->default_val("evit-logs");
+  up->add_option("file", o->file, "Procman file, either dialect, e.g. procman/evit.procman")->required();
+  up->add_option("script", o->script, "Script of it to run, e.g. replay or robot")->required();
+  up->add_option("--deputy", o->deputy, "Run this deputy's commands (default: the only one of the file)");
+  up->add_option("--logs", o->logs, "Folder for NAME.log and what restarts need")->default_val("evit-logs");
   up->add_option("--lcm-url", o->lcm_url,
                  "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
   up->footer(
