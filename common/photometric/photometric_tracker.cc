@@ -98,9 +98,9 @@ void PhotometricTracker::Accept(const PhotometricFrame& frame, double after_even
   out->image_speed = image_speed_;
   out->information.topLeftCorner<6, 6>() = solution.information;
   out->information.bottomRightCorner<9, 9>().setIdentity();
+  // Without a correlated share: the weight of a point knows already that neighbours err together.
   covariance_ = PoseCovariance(out->information) +
-                CommonCovariance(solution.information, config_.window().correlated_share(),
-                                 config_.window().map_sigma_m()) +
+                CommonCovariance(solution.information, 0, config_.window().map_sigma_m()) +
                 StampCovariance(state_.velocity, state_.T_world_body.q.conjugate() * rate_,
                                 1e-6 * config_.window().stamp_sigma_us());
   out->covariance = covariance_;
