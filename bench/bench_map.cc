@@ -26,7 +26,7 @@ void Ours(benchmark::State& state) {
   double visible = 0, n = 0;
   for (auto _ : state) {
     state.PauseTiming();
-    q.T_world_camera = test::RandomPose(&random, 1);
+    q.T_map_camera = test::RandomPose(&random, 1);
     state.ResumeTiming();
     visible += index.Query(q).n_visible;
     ++n;
@@ -42,11 +42,11 @@ void Reference(benchmark::State& state) {
   std::mt19937 random(1);
   for (auto _ : state) {
     state.PauseTiming();
-    q.T_world_camera = test::RandomPose(&random, 1);
+    q.T_map_camera = test::RandomPose(&random, 1);
     state.ResumeTiming();
     std::vector<float> depth(std::size_t{640} * 480, 1e9F);
     std::vector<std::pair<std::int32_t, Eigen::Vector3d>> seen;
-    const SE3 T = q.T_world_camera.Inverse();
+    const SE3 T = q.T_map_camera.Inverse();
     for (std::size_t k = 0; k < map.points.size(); ++k) {
       const Eigen::Vector3d p = T * map.points[k].cast<double>();
       Eigen::Vector2d pixel;

@@ -72,7 +72,7 @@ void MapSize(benchmark::State& state) {
   for (int k = 0; k < 64; ++k) poses.push_back(test::RandomPose(&random, 1));
   double visible = 0, queries = 0;
   for (auto _ : state) {
-    q.T_world_camera = poses[static_cast<std::size_t>(queries) % poses.size()];
+    q.T_map_camera = poses[static_cast<std::size_t>(queries) % poses.size()];
     visible += index.Query(q).n_visible;
     ++queries;
   }

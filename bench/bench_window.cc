@@ -45,13 +45,13 @@ std::deque<WindowNode> Nodes(int n, int points) {
     node.state = motion.State(ToSeconds(node.t));
     std::vector<Eigen::Vector3f> room = synthetic::RoomPoints();
     node.field =
-        std::make_shared<SurfaceField>(synthetic::DrawSurface(settings, room, node.state.T_world_body), 1);
+        std::make_shared<SurfaceField>(synthetic::DrawSurface(settings, room, node.state.T_map_body), 1);
     std::shuffle(room.begin(), room.end(), random);
     room.resize(static_cast<std::size_t>(points));
     node.points = room;
     Eigen::Matrix<double, 6, 1> d;
     for (int i = 0; i < 6; ++i) d[i] = (k + 1 == n ? 0.005 : 0.002) * normal(random);
-    node.state.T_world_body = node.state.T_world_body.Plus(d);
+    node.state.T_map_body = node.state.T_map_body.Plus(d);
     if (k > 0) {
       node.imu =
           std::make_shared<Preintegration>(motion.Samples(nodes.back().t, node.t, {}), ImuBias{}, kNoise);
@@ -81,7 +81,7 @@ void Ours(benchmark::State& state) {
     iterations = window.Solve().iterations;
   }
   const double error =
-      (window.nodes().back().state.T_world_body.p - synthetic::Motion().Position(ToSeconds(nodes.back().t)))
+      (window.nodes().back().state.T_map_body.p - synthetic::Motion().Position(ToSeconds(nodes.back().t)))
           .norm();
   state.counters["iterations"] = iterations;
   state.counters["error_mm"] = 1e3 * error;

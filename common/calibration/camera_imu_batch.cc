@@ -113,7 +113,7 @@ void CameraImuBatch::StartStates() {
   const SE3 T_upright_map(ExpSO3({-values_.tilt.x(), -values_.tilt.y(), 0}), Eigen::Vector3d::Zero());
   for (const StampedPose& s : camera_) {
     BodyState state;
-    state.T_world_body = T_upright_map * s.pose * T_camera_body;
+    state.T_map_body = T_upright_map * s.pose * T_camera_body;
     state.bias = values_.bias;
     states_.push_back(ToBlocks(state));
   }

@@ -23,7 +23,7 @@ const Eigen::Vector3d kGyro(0.9, -1.4, 0.6);
 
 Blocks Example(double tilt_rad) {
   BodyState state;
-  state.T_world_body = {ExpSO3({0.3, -0.8, 1.9}), {1, -2, 0.5}};
+  state.T_map_body = {ExpSO3({0.3, -0.8, 1.9}), {1, -2, 0.5}};
   state.velocity = {0.8, -0.3, 0.4};
   state.bias.gyro = {0.02, -0.01, 0.03};
   Blocks b;
@@ -37,8 +37,8 @@ Blocks Example(double tilt_rad) {
 
 SE3 Predicted(const Blocks& b) {
   const BodyState s = FromBlocks(b.body);
-  const SE3 moved(s.T_world_body.q * ExpSO3(b.late * (kGyro - s.bias.gyro)),
-                  s.T_world_body.p + b.late * s.velocity);
+  const SE3 moved(s.T_map_body.q * ExpSO3(b.late * (kGyro - s.bias.gyro)),
+                  s.T_map_body.p + b.late * s.velocity);
   return SE3(ExpSO3({b.tilt[0], b.tilt[1], 0}), Eigen::Vector3d::Zero()) * moved *
          PoseFromBlock(b.extrinsic.data());
 }

@@ -50,7 +50,7 @@ TEST(ImuTrack, CutsAndTurns) {
   EXPECT_EQ(track.Between(0, 2'000'000).size(), 401U);
   const Eigen::Quaterniond turn = track.Turn(303'000).conjugate() * track.Turn(1'702'000);
   const Eigen::Quaterniond truth =
-      test::Handheld(303'000).T_world_body.q.conjugate() * test::Handheld(1'702'000).T_world_body.q;
+      test::Handheld(303'000).T_map_body.q.conjugate() * test::Handheld(1'702'000).T_map_body.q;
   EXPECT_LT(AngularDistance(turn, truth), 1e-3);
 }
 

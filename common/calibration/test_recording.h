@@ -21,7 +21,7 @@ inline Motion Turning(Utime t, double lean) {
   const double roll = 0.4 * std::sin(5.9 * s + 0.7) + lean * std::sin(1.7 * s + 0.5),
                roll_rate = 0.4 * 5.9 * std::cos(5.9 * s + 0.7) + lean * 1.7 * std::cos(1.7 * s + 0.5);
   const Eigen::Quaterniond q_pitch = ExpSO3({0, pitch, 0}), q_roll = ExpSO3({roll, 0, 0});
-  m.T_world_body.q = ExpSO3({0, 0, yaw}) * q_pitch * q_roll;
+  m.T_map_body.q = ExpSO3({0, 0, yaw}) * q_pitch * q_roll;
   m.rate = Eigen::Vector3d(roll_rate, 0, 0) +
            q_roll.conjugate() *
                (Eigen::Vector3d(0, pitch_rate, 0) + q_pitch.conjugate() * Eigen::Vector3d(0, 0, yaw_rate));
@@ -69,7 +69,7 @@ struct Recording {
     for (Utime t = 0; t <= static_cast<Utime>(seconds * 1e6); t += 5'000) {
       const Motion m = motion(t);
       const Eigen::Vector3d force =
-          m.T_world_body.q.conjugate() * (m.acceleration + Eigen::Vector3d(0, 0, rig.gravity));
+          m.T_map_body.q.conjugate() * (m.acceleration + Eigen::Vector3d(0, 0, rig.gravity));
       const Eigen::Vector3d n_gyro = noise(rig.imu_noise.gyro_density);
       const Eigen::Vector3d n_accel = noise(rig.imu_noise.accel_density);
       samples.push_back({t, m.rate + bias.gyro + n_gyro, force + bias.accel + n_accel});
@@ -92,7 +92,7 @@ struct Recording {
     for (Utime t = 12'345; t <= static_cast<Utime>(seconds * 1e6); t += 10'000) {
       slow_p = stay * slow_p + fresh * draw(2e-3);
       slow_r = stay * slow_r + fresh * draw(1e-3);
-      SE3 pose = T_map_upright * motion(t).T_world_body * rig.T_body_camera;
+      SE3 pose = T_map_upright * motion(t).T_map_body * rig.T_body_camera;
       const Eigen::Vector3d white_p = draw(1e-3), white_r = draw(1e-3);
       pose.p += pose_noise * (slow_p + white_p);
       pose.q = pose.q * ExpSO3(pose_noise * (slow_r + white_r));
@@ -118,7 +118,7 @@ struct Recording {
 inline Motion YawOnly(Utime t) {
   Motion m = Handheld(t);
   const double s = ToSeconds(t);
-  m.T_world_body.q = ExpSO3({0, 0, 0.5 * std::sin(4.3 * s)});
+  m.T_map_body.q = ExpSO3({0, 0, 0.5 * std::sin(4.3 * s)});
   m.rate = {0, 0, 0.5 * 4.3 * std::cos(4.3 * s)};
   return m;
 }
@@ -127,7 +127,7 @@ inline Motion YawOnly(Utime t) {
 inline Motion Creeping(Utime t) {
   Motion m;
   const double s = 0.5 * ToSeconds(t);
-  m.T_world_body = {ExpSO3({0.04 * std::sin(s), 0, 0}), {0.04 * std::sin(s), 0, 0}};
+  m.T_map_body = {ExpSO3({0.04 * std::sin(s), 0, 0}), {0.04 * std::sin(s), 0, 0}};
   m.velocity = {0.02 * std::cos(s), 0, 0};
   m.acceleration = {-0.01 * std::sin(s), 0, 0};
   m.rate = {0.02 * std::cos(s), 0, 0};

@@ -10,7 +10,7 @@ namespace evit {
 
 struct StampedPose {
   Utime t = 0;  // us
-  SE3 pose;     // T_world_body
+  SE3 pose;     // T_map_body
 };
 
 /// In order of time.

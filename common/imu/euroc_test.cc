@@ -92,12 +92,12 @@ TEST_F(EurocTest, PredictsTheRealMotionOverAKeyframeInterval) {
     const Preintegration pre(samples, a.bias, noise);
     const double dt = pre.dt();
     const Eigen::Vector3d g(0, 0, -kGravity);
-    const Eigen::Quaterniond& q = a.state.T_world_body.q;
-    position.push_back((a.state.T_world_body.p + dt * a.state.velocity + 0.5 * dt * dt * g +
-                        q * pre.delta().alpha - b.state.T_world_body.p)
+    const Eigen::Quaterniond& q = a.state.T_map_body.q;
+    position.push_back((a.state.T_map_body.p + dt * a.state.velocity + 0.5 * dt * dt * g +
+                        q * pre.delta().alpha - b.state.T_map_body.p)
                            .norm());
     velocity.push_back((a.state.velocity + dt * g + q * pre.delta().beta - b.state.velocity).norm());
-    turn.push_back(AngularDistance(q * pre.delta().gamma, b.state.T_world_body.q));
+    turn.push_back(AngularDistance(q * pre.delta().gamma, b.state.T_map_body.q));
   }
   ASSERT_GT(position.size(), 150u);
   const auto median = [](std::vector<double> v) {

@@ -65,7 +65,7 @@ class Preintegration {
 
 /// Pose and velocity of the body, map frame.
 struct NavState {
-  SE3 T_world_body;
+  SE3 T_map_body;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s
 };
 

@@ -177,26 +177,26 @@ TEST(PropagateImu, FollowsTheMotion) {
   const ImuBias bias{{0.02, -0.01, 0.03}, {0.1, -0.1, 0.05}};
   std::vector<ImuSample> samples = test::HandheldImu(0, 1'000'000, 5000);
   for (ImuSample& s : samples) s.gyro += bias.gyro, s.accel += bias.accel;
-  const NavState state = PropagateImu({begin.T_world_body, begin.velocity}, samples, bias, 9.81);
-  EXPECT_LT((state.T_world_body.p - end.T_world_body.p).norm(), 2e-4);
+  const NavState state = PropagateImu({begin.T_map_body, begin.velocity}, samples, bias, 9.81);
+  EXPECT_LT((state.T_map_body.p - end.T_map_body.p).norm(), 2e-4);
   EXPECT_LT((state.velocity - end.velocity).norm(), 5e-4);
-  EXPECT_LT(AngularDistance(state.T_world_body.q, end.T_world_body.q), 1e-4);
+  EXPECT_LT(AngularDistance(state.T_map_body.q, end.T_map_body.q), 1e-4);
 }
 
 TEST(PropagateImu, AgreesWithPreintegration) {
   const std::vector<ImuSample> samples = test::HandheldImu(300'000, 350'000, 5000);
   const test::Motion begin = test::Handheld(300'000);
-  const NavState state = PropagateImu({begin.T_world_body, begin.velocity}, samples, {}, 9.81);
+  const NavState state = PropagateImu({begin.T_map_body, begin.velocity}, samples, {}, 9.81);
   const Preintegration pre(samples, {}, kNoise);
   const Vector3d g(0, 0, -9.81);
   const double dt = pre.dt();
-  const Quaterniond& q = begin.T_world_body.q;
-  EXPECT_LT((state.T_world_body.p -
-             (begin.T_world_body.p + dt * begin.velocity + 0.5 * dt * dt * g + q * pre.delta().alpha))
+  const Quaterniond& q = begin.T_map_body.q;
+  EXPECT_LT((state.T_map_body.p -
+             (begin.T_map_body.p + dt * begin.velocity + 0.5 * dt * dt * g + q * pre.delta().alpha))
                 .norm(),
             1e-13);
   EXPECT_LT((state.velocity - (begin.velocity + dt * g + q * pre.delta().beta)).norm(), 1e-13);
-  EXPECT_LT(AngularDistance(state.T_world_body.q, q * pre.delta().gamma), 1e-7);
+  EXPECT_LT(AngularDistance(state.T_map_body.q, q * pre.delta().gamma), 1e-7);
 }
 
 TEST(InterpolateImu, IsLinear) {

@@ -12,7 +12,7 @@ NavState PropagateImu(const NavState& state, const std::vector<ImuSample>& sampl
                       double gravity) {
   const Eigen::Vector3d g(0, 0, -gravity);
   NavState out = state;
-  SE3& pose = out.T_world_body;
+  SE3& pose = out.T_map_body;
   for (std::size_t k = 1; k < samples.size(); ++k) {
     const ImuSample &a = samples[k - 1], &b = samples[k];
     const double dt = ToSeconds(b.t - a.t);

@@ -10,8 +10,8 @@
 namespace evit::test {
 
 struct Motion {
-  SE3 T_world_body;
-  Eigen::Vector3d velocity, acceleration;  // m/s, m/s^2, world frame
+  SE3 T_map_body;
+  Eigen::Vector3d velocity, acceleration;  // m/s, m/s^2, map frame
   Eigen::Vector3d rate;                    // rad/s, body frame
 };
 
@@ -20,14 +20,14 @@ inline Motion Handheld(Utime t) {
   const Eigen::Array3d amplitude(0.30, 0.25, 0.15), frequency(4.1, 5.3, 6.7), phase(0.3, 1.1, 2.0);
   const Eigen::Array3d angle = frequency * s + phase;
   Motion m;
-  m.T_world_body.p = amplitude * angle.sin();
+  m.T_map_body.p = amplitude * angle.sin();
   m.velocity = amplitude * frequency * angle.cos();
   m.acceleration = -amplitude * frequency.square() * angle.sin();
   // Turn about z, then about x: both rates are known in closed form.
   const double yaw = 0.5 * std::sin(4.3 * s), yaw_rate = 0.5 * 4.3 * std::cos(4.3 * s);
   const double roll = 0.4 * std::sin(5.9 * s + 0.7), roll_rate = 0.4 * 5.9 * std::cos(5.9 * s + 0.7);
   const Eigen::Quaterniond q_roll = ExpSO3({roll, 0, 0});
-  m.T_world_body.q = ExpSO3({0, 0, yaw}) * q_roll;
+  m.T_map_body.q = ExpSO3({0, 0, yaw}) * q_roll;
   m.rate = Eigen::Vector3d(roll_rate, 0, 0) + q_roll.conjugate() * Eigen::Vector3d(0, 0, yaw_rate);
   return m;
 }
@@ -38,7 +38,7 @@ inline std::vector<ImuSample> HandheldImu(Utime begin, Utime end, Utime step, do
   for (Utime t = begin; t <= end; t += step) {
     const Motion m = Handheld(t);
     samples.push_back(
-        {t, m.rate, m.T_world_body.q.conjugate() * (m.acceleration + Eigen::Vector3d(0, 0, gravity))});
+        {t, m.rate, m.T_map_body.q.conjugate() * (m.acceleration + Eigen::Vector3d(0, 0, gravity))});
   }
   return samples;
 }

@@ -106,9 +106,9 @@ std::size_t MapIndex::MemoryBytes() const {
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> MapIndex::CellsInView(const VisibilityQuery& query,
-                                                                       const SE3& T_camera_world) const {
-  const Eigen::Matrix3f R = T_camera_world.R().cast<float>();
-  const Eigen::Vector3f t = T_camera_world.p.cast<float>();
+                                                                       const SE3& T_camera_map) const {
+  const Eigen::Matrix3f R = T_camera_map.R().cast<float>();
+  const Eigen::Vector3f t = T_camera_map.p.cast<float>();
   const auto near = static_cast<float>(query.min_depth);
   const auto far = static_cast<float>(std::min(query.max_depth, 1e30));
   std::array<Eigen::Vector3f, 4> normals;
@@ -131,10 +131,10 @@ std::vector<std::pair<std::size_t, std::size_t>> MapIndex::CellsInView(const Vis
 }
 
 VisibilityAnswer MapIndex::Query(const VisibilityQuery& query) const {
-  const SE3 T_camera_world = query.T_world_camera.Inverse();
-  const ViewProjector projector(query.camera, T_camera_world, query.margin_px, query.min_depth,
+  const SE3 T_camera_map = query.T_map_camera.Inverse();
+  const ViewProjector projector(query.camera, T_camera_map, query.margin_px, query.min_depth,
                                 query.max_depth);
-  const auto ranges = CellsInView(query, T_camera_world);
+  const auto ranges = CellsInView(query, T_camera_map);
   std::size_t room = 1, n = 0;
   for (const auto& [begin, end] : ranges) room += end - begin;
   std::vector<ProjectedPoint> seen(room);

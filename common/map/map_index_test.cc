@@ -19,7 +19,7 @@ using ::testing::IsEmpty;
 std::vector<std::int32_t> BruteForce(const PointMap& map, const VisibilityQuery& q) {
   std::vector<std::int32_t> ids;
   for (std::size_t k = 0; k < map.points.size(); ++k) {
-    const Eigen::Vector3d p = q.T_world_camera.Inverse() * map.points[k].cast<double>();
+    const Eigen::Vector3d p = q.T_map_camera.Inverse() * map.points[k].cast<double>();
     Eigen::Vector2d pixel;
     if (p.z() >= q.min_depth && p.z() <= q.max_depth && q.camera.Project(p, &pixel) &&
         pixel.x() >= -q.margin_px && pixel.x() <= q.camera.width - 1 + q.margin_px &&
@@ -41,7 +41,7 @@ TEST(MapIndexTest, SeesWhatBruteForceSees) {
     std::size_t seen = 0;
     for (int k = 0; k < 30; ++k) {
       VisibilityQuery q;
-      q.T_world_camera = test::RandomPose(&random, k % 3 == 0 ? 8.0F : 2.0F);  // outside the room, too
+      q.T_map_camera = test::RandomPose(&random, k % 3 == 0 ? 8.0F : 2.0F);  // outside the room, too
       q.camera = camera;
       q.margin_px = k % 4 * 30;
       q.min_depth = k % 2 == 0 ? 0.1 : 1.2;
@@ -91,7 +91,7 @@ TEST(MapIndexTest, StraysFarAwayAndASinglePoint) {
   q.max_depth = 1e30;
   const MapIndex strays({{{0, 0, 3e38F}, {-3e38F, 2e38F, 1e38F}, {0, 0, 1e12F}, {0, 0, 1}}});
   EXPECT_THAT(strays.Query(q).ids, ElementsAre(2, 3));
-  q.T_world_camera.p.z() = 2;
+  q.T_map_camera.p.z() = 2;
   q.max_depth = 20;
   EXPECT_THAT(MapIndex({{{0, 0, 1}}}).Query(q).ids, IsEmpty());
 }
@@ -191,7 +191,7 @@ TEST(MapIndexSpeedTest, HalfAMillionPoints) {
   std::vector<double> ms;
   std::int64_t visible = 0;
   for (int k = 0; k < 31; ++k) {
-    q.T_world_camera = test::RandomPose(&random, 1);
+    q.T_map_camera = test::RandomPose(&random, 1);
     const auto begin = std::chrono::steady_clock::now();
     visible += index.Query(q).n_visible;
     ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());

@@ -50,7 +50,7 @@ TEST_F(SofaMapTest, RealPosesSeeIt) {
   double hidden = 0, all = 0;
   std::vector<double> ms;
   for (const StampedPose& pose : poses_) {
-    query_.T_world_camera = pose.pose;
+    query_.T_map_camera = pose.pose;
     query_.occlusion = false;
     const int without = index.Query(query_).n_visible;
     query_.occlusion = true;
@@ -74,10 +74,10 @@ TEST_F(SofaMapTest, SeenFromBehindTheCameraNothingOfItShows) {
   const MapSummary summary = Summarize(loaded_.map);
   // From 20 m away, looking on away from it: a point behind the camera projects to a pixel, too.
   const Eigen::Vector3d away = poses_[0].pose.q * Eigen::Vector3d::UnitZ();
-  query_.T_world_camera = {poses_[0].pose.q, summary.median.cast<double>() + 20 * away};
+  query_.T_map_camera = {poses_[0].pose.q, summary.median.cast<double>() + 20 * away};
   query_.max_depth = 100;
   EXPECT_EQ(index.Query(query_).n_visible, 0);
-  query_.T_world_camera.p -= 40 * away;
+  query_.T_map_camera.p -= 40 * away;
   EXPECT_GT(index.Query(query_).n_visible, 50'000 / 10);
 }
 

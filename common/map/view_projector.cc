@@ -62,7 +62,7 @@ EVIT_MULTIVERSION std::size_t EquidistantBlocks(const ViewProjector::View& view,
 
 }  // namespace
 
-ViewProjector::ViewProjector(const Camera& camera, const SE3& T_camera_world, double margin_px,
+ViewProjector::ViewProjector(const Camera& camera, const SE3& T_camera_map, double margin_px,
                              double min_depth, double max_depth)
     : view_{LaneCamera(camera),
             camera.model == Camera::Model::kEquidistant,
@@ -74,10 +74,10 @@ ViewProjector::ViewProjector(const Camera& camera, const SE3& T_camera_world, do
             static_cast<float>(camera.height - 1 + margin_px),
             static_cast<float>(min_depth),
             static_cast<float>(std::min(max_depth, 1e30))} {
-  const Eigen::Matrix3d R = T_camera_world.R();
+  const Eigen::Matrix3d R = T_camera_map.R();
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) view_.R[3 * r + c] = static_cast<float>(R(r, c));
-    view_.t[r] = static_cast<float>(T_camera_world.p[r]);
+    view_.t[r] = static_cast<float>(T_camera_map.p[r]);
   }
 }
 

@@ -34,7 +34,7 @@ class ViewProjector {
  public:
   /// In view: depth within [min_depth, max_depth], pixel in the image and `margin_px` around it (negative:
   /// only that far inside).
-  ViewProjector(const Camera& camera, const SE3& T_camera_world, double margin_px, double min_depth,
+  ViewProjector(const Camera& camera, const SE3& T_camera_map, double margin_px, double min_depth,
                 double max_depth);
 
   /// Those of points [begin, end) that are in view, in their order, to `seen`, which has room for one more
@@ -45,7 +45,7 @@ class ViewProjector {
   struct View {
     LaneCamera camera;
     bool fisheye;
-    float R[9], t[3];  // camera from world, row-major
+    float R[9], t[3];  // camera from map, row-major
     float left, right, top, bottom, near, far;
   };
 

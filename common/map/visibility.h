@@ -13,7 +13,7 @@ namespace evit {
 
 /// What a camera is asked to see.
 struct VisibilityQuery {
-  SE3 T_world_camera;
+  SE3 T_map_camera;
   Camera camera;
   double margin_px = 0;     // the frustum is this much wider than the image on each side
   double min_depth = 0.1;   // m
@@ -42,7 +42,7 @@ class MapIndex {
 
  private:
   std::vector<std::pair<std::size_t, std::size_t>> CellsInView(const VisibilityQuery& query,
-                                                               const SE3& T_camera_world) const;
+                                                               const SE3& T_camera_map) const;
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -95,7 +95,7 @@ void PhotometricTracker::MinimizeAt(const PhotometricScene& scene, const SE3& ex
   twist_sigma << Eigen::Vector3d::Constant(settings.sigma_velocity()),
       Eigen::Vector3d::Constant(settings.sigma_rate());
   BodyState state;
-  state.T_world_body = solution->pose;
+  state.T_map_body = solution->pose;
   StateBlocks blocks = ToBlocks(state);
   Twist twist = solution->twist;
   ceres::Problem problem;

@@ -122,7 +122,7 @@ TEST(PhotometricFactor, RowsGiveTheGradientAndTheExactCost) {
   const PhotometricTerm term = EvaluatePhotometric(frame.scene, pose, frame.twist, true);
   const PhotometricFactor factor(&frame.scene);
   BodyState state;
-  state.T_world_body = pose;
+  state.T_map_body = pose;
   const StateBlocks blocks = ToBlocks(state);
   const double* parameters[] = {blocks.pose.data(), frame.twist.data()};
   Eigen::Matrix<double, 13, 1> r, bare;
@@ -147,7 +147,7 @@ TEST(MotionPriorFactor, JacobiansAreThoseOfTheResidual) {
   const SE3 at = mean.Plus((Vector6d() << 0.1, 0.2, -0.3, 0.4, -0.2, 0.3).finished());
   const auto residual = [&](const SE3& pose, const Twist& t, double** jacobians) {
     BodyState state;
-    state.T_world_body = pose;
+    state.T_map_body = pose;
     const StateBlocks blocks = ToBlocks(state);
     const double* parameters[] = {blocks.pose.data(), t.data()};
     Eigen::Matrix<double, 12, 1> r;

@@ -20,12 +20,12 @@ constexpr double kMostLag = 0.5;          // of a frame's interval
 
 PhotometricTracker::PhotometricTracker(const Rig& rig, const config::Tracker& config, const SE3& T_map_body)
     : rig_(rig), config_(config) {
-  state_.T_world_body = T_map_body;
+  state_.T_map_body = T_map_body;
 }
 
 void PhotometricTracker::StartAnew(const SE3& T_map_body) {
   state_ = BodyState();
-  state_.T_world_body = T_map_body;
+  state_.T_map_body = T_map_body;
   rate_.setZero();
   image_speed_ = 0;
   state_time_ = last_interval_ = 0;
@@ -40,7 +40,7 @@ SE3 PhotometricTracker::PoseAfter(const SE3& pose, double seconds) const {
 ViewQuery PhotometricTracker::NextQuery() const {
   ViewQuery query;
   const Utime ahead = std::min(last_interval_ > 0 ? last_interval_ : kQueryAhead, kLongestGuess);
-  query.T_map_camera = PoseAfter(state_.T_world_body, ToSeconds(ahead)) * rig_.T_body_camera;
+  query.T_map_camera = PoseAfter(state_.T_map_body, ToSeconds(ahead)) * rig_.T_body_camera;
   query.camera = ViewCamera(rig_.camera, config_.photometric().view_margin());
   query.min_depth = config_.points().min_depth_m();
   query.max_depth = config_.points().max_depth_m();
@@ -54,7 +54,7 @@ TrackerOutput PhotometricTracker::Process(const PhotometricFrame& frame) {
     rate_.setZero();
   }
   const double dt = state_time_ != 0 ? std::max(0.0, ToSeconds(frame.t - state_time_)) : 0;
-  const SE3 predicted = PoseAfter(state_.T_world_body, dt);
+  const SE3 predicted = PoseAfter(state_.T_map_body, dt);
   const double seconds = ToSeconds(frame.end - frame.begin);
   if (frame.n_events < config_.keyframes().min_events() || !(seconds > 0)) {
     Coast(frame, predicted, "too few events", &out);
@@ -89,7 +89,7 @@ void PhotometricTracker::Accept(const PhotometricFrame& frame, double after_even
   state_.velocity = solution.twist.head<3>() +
                     Eigen::Vector3d(solution.twist.tail<3>()).cross(solution.pose.p - solution.origin);
   rate_ = solution.twist.tail<3>();
-  state_.T_world_body = PoseAfter(solution.pose, after_events);
+  state_.T_map_body = PoseAfter(solution.pose, after_events);
   image_speed_ = solution.image_speed;
   good_time_ = frame.t;
   mode_ = TrackerMode::kTracking;
@@ -101,7 +101,7 @@ void PhotometricTracker::Accept(const PhotometricFrame& frame, double after_even
   // Without a correlated share: the weight of a point knows already that neighbours err together.
   covariance_ = PoseCovariance(out->information) +
                 CommonCovariance(solution.information, 0, config_.window().map_sigma_m()) +
-                StampCovariance(state_.velocity, state_.T_world_body.q.conjugate() * rate_,
+                StampCovariance(state_.velocity, state_.T_map_body.q.conjugate() * rate_,
                                 1e-6 * config_.window().stamp_sigma_us());
   out->covariance = covariance_;
   out->nodes.push_back({frame.t, frame.seq, state_});
@@ -122,7 +122,7 @@ void PhotometricTracker::Coast(const PhotometricFrame& frame, const SE3& predict
     image_speed_ = 0;
     return;
   }
-  state_.T_world_body = predicted;
+  state_.T_map_body = predicted;
   reason_ = "coasting at constant velocity: " + why;
   out->has_pose = true;
   out->image_speed = image_speed_;

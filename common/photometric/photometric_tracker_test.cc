@@ -77,7 +77,7 @@ TEST(PhotometricTracker, TracksASyntheticRoomFromARoughStart) {
     out = bench.Step(t);
     ASSERT_TRUE(out.has_pose) << t << " " << out.reason;
     if (t < 1'200'000) continue;
-    const SE3 truth = Bench::Truth(t), got = out.nodes.back().state.T_world_body;
+    const SE3 truth = Bench::Truth(t), got = out.nodes.back().state.T_map_body;
     squares += (got.p - truth.p).squaredNorm();
     worst_angle = std::max(worst_angle, AngularDistance(got.q, truth.q));
     const Eigen::Vector3d velocity = (Bench::Truth(t + 1000).p - truth.p) / 1e-3;
@@ -119,7 +119,7 @@ TEST(PhotometricTracker, TheSameInputGivesTheSameBits) {
     Bench bench(Bench::Truth(1'000'000));
     TrackerOutput out;
     for (Utime t = 1'000'000; t < 1'200'000; t += Bench::kInterval) out = bench.Step(t);
-    ends.push_back(out.nodes.back().state.T_world_body);
+    ends.push_back(out.nodes.back().state.T_map_body);
   }
   EXPECT_EQ(ends[0].p, ends[1].p);
   EXPECT_EQ(ends[0].q.coeffs(), ends[1].q.coeffs());
@@ -154,7 +154,7 @@ TEST(PhotometricTracker, SaysLostWhereTheMapForetellsNothingAndComesBackWithAHin
   bench.tracker.StartAnew(Bench::Truth(t));
   for (const Utime end = t + 200'000; t < end; t += Bench::kInterval) out = bench.Step(t);
   EXPECT_EQ(out.mode, TrackerMode::kTracking);
-  EXPECT_LT((out.nodes.back().state.T_world_body.p - Bench::Truth(t - Bench::kInterval).p).norm(), 0.02);
+  EXPECT_LT((out.nodes.back().state.T_map_body.p - Bench::Truth(t - Bench::kInterval).p).norm(), 0.02);
 }
 
 TEST(PhotometricTracker, WithoutEventsItWaits) {

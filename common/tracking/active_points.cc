@@ -50,8 +50,8 @@ void ActivePoints::Merge(const std::vector<std::int32_t>& ids, const std::vector
   std::swap(points_, merged);
 }
 
-std::vector<ProjectedPoint> ActivePoints::Seen(const SE3& T_world_body, double margin_px) const {
-  const ViewProjector projector(camera_, T_camera_body_ * T_world_body.Inverse(), margin_px, 0, kAnyDepth);
+std::vector<ProjectedPoint> ActivePoints::Seen(const SE3& T_map_body, double margin_px) const {
+  const ViewProjector projector(camera_, T_camera_body_ * T_map_body.Inverse(), margin_px, 0, kAnyDepth);
   std::vector<std::int32_t> places(ids_.size());
   std::iota(places.begin(), places.end(), 0);
   std::vector<ProjectedPoint> seen(ids_.size() + 1);
@@ -59,9 +59,9 @@ std::vector<ProjectedPoint> ActivePoints::Seen(const SE3& T_world_body, double m
   return seen;
 }
 
-void ActivePoints::Retain(const std::vector<SE3>& T_world_body, double margin_px) {
+void ActivePoints::Retain(const std::vector<SE3>& T_map_body, double margin_px) {
   std::vector<std::uint8_t> keep(ids_.size(), 0);
-  for (const SE3& pose : T_world_body) {
+  for (const SE3& pose : T_map_body) {
     for (const ProjectedPoint& p : Seen(pose, margin_px)) keep[p.id] = 1;
   }
   std::size_t kept = 0;
@@ -74,9 +74,9 @@ void ActivePoints::Retain(const std::vector<SE3>& T_world_body, double margin_px
   points_.Resize(kept);
 }
 
-std::vector<Eigen::Vector3f> ActivePoints::Sample(const SE3& T_world_body, int count,
+std::vector<Eigen::Vector3f> ActivePoints::Sample(const SE3& T_map_body, int count,
                                                   std::uint64_t salt) const {
-  std::vector<ProjectedPoint> seen = Seen(T_world_body, -kBorder);
+  std::vector<ProjectedPoint> seen = Seen(T_map_body, -kBorder);
   std::vector<std::int32_t> places;
   places.reserve(seen.size());
   for (ProjectedPoint& p : seen) {  // the draw goes by the map's ids, whatever the order here

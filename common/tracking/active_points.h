@@ -20,19 +20,19 @@ class ActivePoints {
   void Merge(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& points);
 
   /// Keeps only points inside the image (plus `margin_px`) seen from one of these poses.
-  void Retain(const std::vector<SE3>& T_world_body, double margin_px);
+  void Retain(const std::vector<SE3>& T_map_body, double margin_px);
 
   /// A random subset of at most `count` points inside the image seen from this pose, spread over the image:
   /// tiles of 32x32 pixels take turns, so that densely mapped spots do not eat the budget. Depends on seed,
   /// `salt`, pose and the set alone, not on the order in which points came.
-  std::vector<Eigen::Vector3f> Sample(const SE3& T_world_body, int count, std::uint64_t salt) const;
+  std::vector<Eigen::Vector3f> Sample(const SE3& T_map_body, int count, std::uint64_t salt) const;
 
   std::size_t size() const { return ids_.size(); }
   void Clear();
 
  private:
   /// Points in view; their `id` is the place in points_.
-  std::vector<ProjectedPoint> Seen(const SE3& T_world_body, double margin_px) const;
+  std::vector<ProjectedPoint> Seen(const SE3& T_map_body, double margin_px) const;
 
   Camera camera_;
   SE3 T_camera_body_;

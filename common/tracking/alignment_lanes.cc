@@ -234,7 +234,7 @@ void Copy(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, float* to_R, float
 }  // namespace
 
 AlignmentLanes::AlignmentLanes(const AlignmentSettings& settings, const SurfaceField& field, int level,
-                               const AlignmentPoints& points, const SE3& T_world_body)
+                               const AlignmentPoints& points, const SE3& T_map_body)
     : camera(settings.lane_camera()),
       fisheye(settings.camera().model == kEquidistant),
       field(field.Lanes(level)),
@@ -242,7 +242,7 @@ AlignmentLanes::AlignmentLanes(const AlignmentSettings& settings, const SurfaceF
       kernel(settings.kernel.kind),
       inverse_c2(static_cast<float>(1 / (settings.kernel.scale * settings.kernel.scale))),
       c(static_cast<float>(settings.kernel.scale)) {
-  Copy(T_world_body.R().transpose(), T_world_body.p - points.origin(), R_bw, t_wb);
+  Copy(T_map_body.R().transpose(), T_map_body.p - points.origin(), R_bw, t_wb);
   Copy(settings.T_camera_body.R(), settings.T_camera_body.p, R_cb, t_cb);
 }
 

@@ -9,12 +9,12 @@ namespace evit {
 /// What a block of points needs to know.
 struct AlignmentLanes {
   AlignmentLanes(const AlignmentSettings& settings, const SurfaceField& field, int level,
-                 const AlignmentPoints& points, const SE3& T_world_body);
+                 const AlignmentPoints& points, const SE3& T_map_body);
 
   LaneCamera camera;
   bool fisheye;
   LaneField field;
-  float R_bw[9], t_wb[3];  // body from world (row-major); body in the map, relative to the points' origin
+  float R_bw[9], t_wb[3];  // body from map (row-major); body in the map, relative to the points' origin
   float R_cb[9], t_cb[3];  // camera from body
   float inverse_sigma;     // 1 / grey levels
   RobustKernel::Kind kernel;

@@ -16,7 +16,7 @@ namespace {
 Eigen::Vector3d DifferenceVelocity(const std::vector<BootstrapFrame>& frames, std::size_t k) {
   const std::size_t reach = std::max<std::size_t>(1, frames.size() / 4);
   const std::size_t a = k > reach ? k - reach : 0, b = std::min(frames.size() - 1, k + reach);
-  return (frames[b].T_world_body.p - frames[a].T_world_body.p) / ToSeconds(frames[b].t - frames[a].t);
+  return (frames[b].T_map_body.p - frames[a].T_map_body.p) / ToSeconds(frames[b].t - frames[a].t);
 }
 
 bool SolveChain(const std::vector<BootstrapFrame>& frames, double gravity, double noise_factor,
@@ -54,7 +54,7 @@ BootstrapResult AlignVisualInertial(const std::vector<BootstrapFrame>& frames, d
   std::vector<StatePrior> priors(frames.size());
   for (std::size_t k = 0; k < frames.size(); ++k) {
     BodyState state;
-    state.T_world_body = frames[k].T_world_body;
+    state.T_map_body = frames[k].T_map_body;
     state.velocity = DifferenceVelocity(frames, k);
     blocks.push_back(ToBlocks(state));
     priors[k].mean = state;

@@ -11,7 +11,7 @@ namespace evit {
 /// One high-rate frame of the bootstrapping phase, localised from its events alone.
 struct BootstrapFrame {
   Utime t = 0;
-  SE3 T_world_body;
+  SE3 T_map_body;
   std::shared_ptr<Preintegration> imu;  // from the previous frame to this one; unused in the first
 };
 

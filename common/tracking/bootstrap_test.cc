@@ -24,7 +24,7 @@ TEST(Bootstrap, FindsVelocitiesAndBiasesFromNoisyPoses) {
     std::vector<BootstrapFrame> frames;
     for (int k = 0; k <= 60; ++k) {
       const Utime t = 1'000'000 + k * 10'000;
-      SE3 pose = motion.State(ToSeconds(t)).T_world_body;
+      SE3 pose = motion.State(ToSeconds(t)).T_map_body;
       Eigen::Matrix<double, 6, 1> d;
       for (int c = 0; c < 6; ++c) d[c] = pose_noise * 0.002 * n(rng);
       pose = pose.Plus(d);
@@ -53,7 +53,7 @@ TEST(Bootstrap, RefusesAMapWhoseZAxisIsNotUp) {
       imu = std::make_shared<Preintegration>(motion.Samples(t - 10'000, t, {}), ImuBias{},
                                              ImuNoise{7e-4, 1.3e-3, 7e-6, 6e-5});
     }
-    frames.push_back({t, tilt * motion.State(ToSeconds(t)).T_world_body, imu});
+    frames.push_back({t, tilt * motion.State(ToSeconds(t)).T_map_body, imu});
   }
   const auto result = AlignVisualInertial(frames, 9.81, TestConfig().bootstrap(), 2.0);
   EXPECT_FALSE(result.success);

@@ -13,7 +13,7 @@ using MotionJacobian15 = Eigen::Map<Eigen::Matrix<double, 15, 9, Eigen::RowMajor
 
 BodyState StateOf(const double* pose, const double* motion) {
   BodyState s;
-  s.T_world_body = PoseFromBlock(pose);
+  s.T_map_body = PoseFromBlock(pose);
   s.velocity = Eigen::Map<const Eigen::Vector3d>(motion);
   s.bias.gyro = Eigen::Map<const Eigen::Vector3d>(motion + 3);
   s.bias.accel = Eigen::Map<const Eigen::Vector3d>(motion + 6);

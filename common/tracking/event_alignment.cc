@@ -35,9 +35,9 @@ void RobustKernel::Evaluate(double s, double* rho, double* slope) const {
 }
 
 AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
-                                const AlignmentPoints& points, const SE3& T_world_body, bool derivatives) {
+                                const AlignmentPoints& points, const SE3& T_map_body, bool derivatives) {
   AlignmentSums sums;
-  SumAlignment(AlignmentLanes(settings, field, level, points, T_world_body), points.local(), derivatives,
+  SumAlignment(AlignmentLanes(settings, field, level, points, T_map_body), points.local(), derivatives,
                &sums);
   AlignmentTerm term;
   term.cost = 0.5 * sums.rho;
@@ -49,18 +49,18 @@ AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const Surface
   }
   // The position of the sums is in the body frame.
   Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Identity();
-  turn.topLeftCorner<3, 3>() = T_world_body.R();
+  turn.topLeftCorner<3, 3>() = T_map_body.R();
   term.hessian = turn * term.hessian * turn.transpose();
   term.gradient = turn * term.gradient;
   return term;
 }
 
 AlignmentQuality MeasureAlignment(const AlignmentSettings& settings, const SurfaceField& field,
-                                  const AlignmentPoints& points, const SE3& T_world_body, double shift) {
+                                  const AlignmentPoints& points, const SE3& T_map_body, double shift) {
   const std::size_t room = points.size() + kLanes;
   std::vector<float> value(room), beside(room);
   std::vector<std::int32_t> inside(room);
-  SampleBeside(AlignmentLanes(settings, field, 0, points, T_world_body), points.local(),
+  SampleBeside(AlignmentLanes(settings, field, 0, points, T_map_body), points.local(),
                static_cast<float>(settings.camera().width), static_cast<float>(settings.camera().height),
                static_cast<float>(shift), value.data(), beside.data(), inside.data());
   AlignmentQuality quality;

@@ -38,7 +38,7 @@ struct AlignmentSettings {
   LaneCamera lane_camera_;
 };
 
-/// Value, gradient and Hessian over the tangent (dp, dtheta) of T_world_body.
+/// Value, gradient and Hessian over the tangent (dp, dtheta) of T_map_body.
 ///
 /// The Hessian is Newton's for each residual r over the image plane, slope * (grad r grad r^T + r [Hess r]+),
 /// with the negative part of the surface's curvature left out so that it stays positive semi-definite.
@@ -52,7 +52,7 @@ struct AlignmentTerm {
 
 /// A point behind the camera costs what an empty field (255) costs and pulls nowhere.
 AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
-                                const AlignmentPoints& points, const SE3& T_world_body, bool derivatives);
+                                const AlignmentPoints& points, const SE3& T_map_body, bool derivatives);
 
 /// How well projected points sit on a surface's edges, against the same points shifted by some pixels: a
 /// figure that needs no threshold on the scene's texture.
@@ -67,6 +67,6 @@ struct AlignmentQuality {
   double contrast() const { return shifted_value > 0 ? 1.0 - mean_value / shifted_value : 0.0; }
 };
 AlignmentQuality MeasureAlignment(const AlignmentSettings& settings, const SurfaceField& field,
-                                  const AlignmentPoints& points, const SE3& T_world_body, double shift = 10);
+                                  const AlignmentPoints& points, const SE3& T_map_body, double shift = 10);
 
 }  // namespace evit

@@ -9,14 +9,14 @@ constexpr double kSlow =
 }  // namespace
 
 std::vector<Eigen::Vector3f> WhereEventsShow(const AlignmentSettings& settings,
-                                             std::vector<Eigen::Vector3f> points, const SE3& T_world_body,
+                                             std::vector<Eigen::Vector3f> points, const SE3& T_map_body,
                                              const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate,
                                              double lag_px) {
   if (lag_px == 0) return points;
-  const Eigen::Matrix3d R_wb = T_world_body.R(), R_bw = R_wb.transpose(), R_cb = settings.T_camera_body.R();
+  const Eigen::Matrix3d R_wb = T_map_body.R(), R_bw = R_wb.transpose(), R_cb = settings.T_camera_body.R();
   const Eigen::Vector3d v_body = R_bw * velocity;
   for (Eigen::Vector3f& point : points) {
-    const Eigen::Vector3d p_body = R_bw * (point.cast<double>() - T_world_body.p);
+    const Eigen::Vector3d p_body = R_bw * (point.cast<double>() - T_map_body.p);
     const Eigen::Vector3d flow = -v_body - rate.cross(p_body);  // m/s, of a fixed point seen from the body
     Eigen::Vector2d pixel;
     Eigen::Matrix<double, 2, 3> jacobian;

@@ -14,7 +14,7 @@ namespace evit {
 /// the image, for a body at this pose, with this velocity (m/s, map frame) and angular rate (rad/s, body
 /// frame).
 std::vector<Eigen::Vector3f> WhereEventsShow(const AlignmentSettings& settings,
-                                             std::vector<Eigen::Vector3f> points, const SE3& T_world_body,
+                                             std::vector<Eigen::Vector3f> points, const SE3& T_map_body,
                                              const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate,
                                              double lag_px);
 

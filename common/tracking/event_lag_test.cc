@@ -9,7 +9,7 @@ namespace {
 
 TEST(EventLag, PointsShowBehindTheirMotionByTheSameNumberOfPixels) {
   const AlignmentSettings settings = synthetic::Alignment();
-  const SE3 pose = synthetic::Motion().State(1.0).T_world_body;
+  const SE3 pose = synthetic::Motion().State(1.0).T_map_body;
   const std::vector<Eigen::Vector3f> room = synthetic::RoomPoints();
   const Eigen::Vector3d velocity(0.3, -0.2, 0.1);
   for (const double speed : {0.2, 5.0}) {  // slow and fast: the same lag

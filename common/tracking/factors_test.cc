@@ -12,7 +12,7 @@ namespace {
 
 BodyState Moved(const BodyState& s, const Vector15d& d) {
   BodyState out = s;
-  out.T_world_body = s.T_world_body.Plus(d.head<6>());
+  out.T_map_body = s.T_map_body.Plus(d.head<6>());
   out.velocity += d.segment<3>(6);
   out.bias.gyro += d.segment<3>(9);
   out.bias.accel += d.segment<3>(12);
@@ -89,7 +89,7 @@ TEST(EventAlignmentFactor, IsTheRobustSumForCeres) {
   const auto points = synthetic::RoomPoints();
   const SurfaceField field(synthetic::DrawSurface(settings, points, SE3()), 1);
   BodyState state;
-  state.T_world_body = SE3(ExpSO3({0.01, 0, -0.005}), {0.01, 0.02, 0});
+  state.T_map_body = SE3(ExpSO3({0.01, 0, -0.005}), {0.01, 0.02, 0});
   const StateBlocks blocks = ToBlocks(state);
   const AlignmentPoints local(points);
   const EventAlignmentFactor factor(&settings, &field, 0, &local);
@@ -99,7 +99,7 @@ TEST(EventAlignmentFactor, IsTheRobustSumForCeres) {
   double* jacobians[] = {J.data()};
   ASSERT_TRUE(factor.Evaluate(parameters, r.data(), jacobians));
   ASSERT_TRUE(factor.Evaluate(parameters, value_only.data(), nullptr));
-  const AlignmentTerm term = EvaluateAlignment(settings, field, 0, points, state.T_world_body, true);
+  const AlignmentTerm term = EvaluateAlignment(settings, field, 0, points, state.T_map_body, true);
   EXPECT_NEAR(0.5 * r.squaredNorm(), term.cost, 1e-9 * term.cost);
   EXPECT_NEAR(0.5 * value_only.squaredNorm(), term.cost, 1e-9 * term.cost);
   const Eigen::Matrix<double, 7, 6> J6 = J.leftCols<6>();
@@ -119,9 +119,8 @@ TEST(ImuTerm, JacobiansMatchNumericDerivatives) {
     const Preintegration pre(motion.Samples(100'000, 150'000, {}), {random3(0.01), random3(0.1)}, noise);
     const ImuTerm term(&pre, 9.81, 1.0);
     BodyState i, j;
-    i.T_world_body = {ExpSO3(random3(trial < 10 ? 0.1 : 1.2)), random3(trial < 10 ? 0.1 : 50)};
-    j.T_world_body = {(i.T_world_body.q * ExpSO3(random3(0.2))).normalized(),
-                      i.T_world_body.p + random3(0.1)};
+    i.T_map_body = {ExpSO3(random3(trial < 10 ? 0.1 : 1.2)), random3(trial < 10 ? 0.1 : 50)};
+    j.T_map_body = {(i.T_map_body.q * ExpSO3(random3(0.2))).normalized(), i.T_map_body.p + random3(0.1)};
     i.velocity = random3(1), j.velocity = random3(1);
     i.bias = {random3(0.01), random3(0.1)}, j.bias = {random3(0.01), random3(0.1)};
     Matrix15d Ji, Jj;
@@ -151,12 +150,12 @@ TEST(ImuTerm, VanishesOnTheTrueMotion) {
 
 TEST(PriorFactor, JacobianMatchesNumericDerivative) {
   StatePrior prior;
-  prior.mean.T_world_body = {ExpSO3({0.5, 1.0, -0.7}), {3, 2, 1}};
+  prior.mean.T_map_body = {ExpSO3({0.5, 1.0, -0.7}), {3, 2, 1}};
   const Matrix15d a = Matrix15d::Random();
   prior.information = a * a.transpose();
   const PriorFactor factor(prior);
   BodyState s = prior.mean;
-  s.T_world_body = s.T_world_body.Plus((Vector6d() << 0.1, 0.2, 0.3, 0.4, -0.3, 0.2).finished());
+  s.T_map_body = s.T_map_body.Plus((Vector6d() << 0.1, 0.2, 0.3, 0.4, -0.3, 0.2).finished());
   const auto evaluate = [&](const BodyState& x, double** jacobians) {
     const StateBlocks b = ToBlocks(x);
     const double* parameters[] = {b.pose.data(), b.motion.data()};

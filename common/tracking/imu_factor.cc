@@ -23,11 +23,11 @@ Vector15d ImuTerm::Evaluate(const BodyState& i, const BodyState& j, Matrix15d* j
   const double dt = pre_->dt();
   const Preintegration::Delta delta = pre_->Corrected(i.bias);
   const Eigen::Vector3d gravity(0, 0, gravity_);
-  const Eigen::Matrix3d Rt_i = i.T_world_body.R().transpose();
+  const Eigen::Matrix3d Rt_i = i.T_map_body.R().transpose();
   const Eigen::Vector3d alpha =
-      Rt_i * (j.T_world_body.p - i.T_world_body.p + 0.5 * dt * dt * gravity - dt * i.velocity);
+      Rt_i * (j.T_map_body.p - i.T_map_body.p + 0.5 * dt * dt * gravity - dt * i.velocity);
   const Eigen::Vector3d beta = Rt_i * (j.velocity - i.velocity + dt * gravity);
-  const Eigen::Quaterniond q_ij = i.T_world_body.q.conjugate() * j.T_world_body.q;
+  const Eigen::Quaterniond q_ij = i.T_map_body.q.conjugate() * j.T_map_body.q;
   const Eigen::Vector3d gamma = LogSO3(delta.gamma.conjugate() * q_ij);
 
   Vector15d r;

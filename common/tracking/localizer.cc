@@ -14,7 +14,7 @@ LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& 
                          const AlignmentPoints& points, const SE3& start, const StartSigma& sigma, int levels,
                          int max_iterations) {
   BodyState state;
-  state.T_world_body = start;
+  state.T_map_body = start;
   StateBlocks blocks = ToBlocks(state);
   StatePrior prior;
   prior.mean = state;
@@ -37,9 +37,9 @@ LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& 
     ceres::Solve(options, &problem, &summary);
     result.iterations += static_cast<int>(summary.iterations.size());
   }
-  result.T_world_body = PoseFromBlock(blocks.pose.data());
-  result.T_world_body.q.normalize();
-  result.quality = MeasureAlignment(settings, field, points, result.T_world_body);
+  result.T_map_body = PoseFromBlock(blocks.pose.data());
+  result.T_map_body.q.normalize();
+  result.quality = MeasureAlignment(settings, field, points, result.T_map_body);
   return result;
 }
 

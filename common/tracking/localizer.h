@@ -6,7 +6,7 @@ namespace evit {
 
 /// Event-only localisation of a single frame (paper Eq. (3)), from coarse to fine.
 struct LocalizerResult {
-  SE3 T_world_body;
+  SE3 T_map_body;
   AlignmentQuality quality;
   int iterations = 0;
 };

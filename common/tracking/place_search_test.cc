@@ -28,7 +28,7 @@ TEST(PlaceSearch, FindsABodyThatIsDecimetresOff) {
   const synthetic::Motion motion;
   int nearer = 0;
   for (int trial = 0; trial < 10; ++trial) {
-    const SE3 truth = motion.State(0.3 * trial).T_world_body;
+    const SE3 truth = motion.State(0.3 * trial).T_map_body;
     const SurfaceField field(synthetic::DrawSurface(settings, room, truth), 4);
     SE3 start = truth;
     start.p += Eigen::Vector3d(0.3, -0.25, 0.2);

@@ -32,16 +32,16 @@ TEST(PoseCovariance, WhatOneKeyframeLeavesOpenStaysButNotWithoutBound) {
 TEST(PoseCovariance, LateEventsSpreadPosesAlongTheMotion) {
   const Eigen::Vector3d velocity(0.5, -1, 0.2), rate(2, 0.3, -4);
   constexpr double kSigma = 400e-6;
-  const SE3 T_world_body(ExpSO3({0.3, -1.1, 0.4}), {1, 2, 3});
+  const SE3 T_map_body(ExpSO3({0.3, -1.1, 0.4}), {1, 2, 3});
   std::mt19937 random(1);
   std::normal_distribution<double> late(0, kSigma);
   constexpr int kPoses = 20'000;
   Matrix6d spread = Matrix6d::Zero();
   for (int k = 0; k < kPoses; ++k) {
     const double dt = late(random);
-    const SE3 then(T_world_body.q * ExpSO3(dt * rate), T_world_body.p + dt * velocity);
+    const SE3 then(T_map_body.q * ExpSO3(dt * rate), T_map_body.p + dt * velocity);
     Vector6d error;
-    error << then.p - T_world_body.p, LogSO3(T_world_body.q.conjugate() * then.q);
+    error << then.p - T_map_body.p, LogSO3(T_map_body.q.conjugate() * then.q);
     spread += error * error.transpose() / kPoses;
   }
   const Matrix6d claimed = StampCovariance(velocity, rate, kSigma);

@@ -41,7 +41,7 @@ StatePrior Marginalize(const StatePrior& prior, const AlignmentTerm& alignment, 
   const Matrix15d ridge = 1e-9 * Matrix15d(next.information.diagonal().cwiseMax(1e-12).asDiagonal());
   const Vector15d step = -(next.information + ridge).ldlt().solve(g);
   next.mean = j;
-  next.mean.T_world_body = j.T_world_body.Plus(step.head<6>());
+  next.mean.T_map_body = j.T_map_body.Plus(step.head<6>());
   next.mean.velocity += step.segment<3>(6);
   next.mean.bias.gyro += step.segment<3>(9);
   next.mean.bias.accel += step.segment<3>(12);

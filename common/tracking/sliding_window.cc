@@ -21,7 +21,7 @@ ImuTerm SlidingWindow::Term(const WindowNode& node) const {
 }
 
 AlignmentTerm SlidingWindow::Align(const WindowNode& node) const {
-  return EvaluateAlignment(alignment_, *node.field, 0, node.points, node.state.T_world_body, true);
+  return EvaluateAlignment(alignment_, *node.field, 0, node.points, node.state.T_map_body, true);
 }
 
 StatePrior SlidingWindow::Eliminate(const StatePrior& prior, const AlignmentTerm& alignment,
@@ -83,7 +83,7 @@ SlidingWindow::Summary SlidingWindow::Solve() {
   if (!result.usable) return result;
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     nodes_[n].state = FromBlocks(blocks[n]);
-    nodes_[n].state.T_world_body.q.normalize();
+    nodes_[n].state.T_map_body.q.normalize();
   }
   // Once per keyframe is enough: later moves of a node are far smaller than what would change its curvature.
   for (WindowNode& node : nodes_) {

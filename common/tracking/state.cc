@@ -4,8 +4,8 @@ namespace evit {
 
 StateBlocks ToBlocks(const BodyState& s) {
   StateBlocks b;
-  Eigen::Map<Eigen::Vector3d>(b.pose.data()) = s.T_world_body.p;
-  Eigen::Map<Eigen::Vector4d>(b.pose.data() + 3) = s.T_world_body.q.coeffs();
+  Eigen::Map<Eigen::Vector3d>(b.pose.data()) = s.T_map_body.p;
+  Eigen::Map<Eigen::Vector4d>(b.pose.data() + 3) = s.T_map_body.q.coeffs();
   Eigen::Map<Eigen::Vector3d>(b.motion.data()) = s.velocity;
   Eigen::Map<Eigen::Vector3d>(b.motion.data() + 3) = s.bias.gyro;
   Eigen::Map<Eigen::Vector3d>(b.motion.data() + 6) = s.bias.accel;
@@ -19,7 +19,7 @@ SE3 PoseFromBlock(const double* pose) {
 
 BodyState FromBlocks(const StateBlocks& b) {
   BodyState s;
-  s.T_world_body = PoseFromBlock(b.pose.data());
+  s.T_map_body = PoseFromBlock(b.pose.data());
   s.velocity = Eigen::Map<const Eigen::Vector3d>(b.motion.data());
   s.bias.gyro = Eigen::Map<const Eigen::Vector3d>(b.motion.data() + 3);
   s.bias.accel = Eigen::Map<const Eigen::Vector3d>(b.motion.data() + 6);
@@ -28,7 +28,7 @@ BodyState FromBlocks(const StateBlocks& b) {
 
 Eigen::Matrix<double, 15, 1> Minus(const BodyState& b, const BodyState& a) {
   Eigen::Matrix<double, 15, 1> d;
-  d << b.T_world_body.p - a.T_world_body.p, LogSO3(a.T_world_body.q.conjugate() * b.T_world_body.q),
+  d << b.T_map_body.p - a.T_map_body.p, LogSO3(a.T_map_body.q.conjugate() * b.T_map_body.q),
       b.velocity - a.velocity, b.bias.gyro - a.bias.gyro, b.bias.accel - a.bias.accel;
   return d;
 }

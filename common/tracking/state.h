@@ -15,7 +15,7 @@ using Matrix15d = Eigen::Matrix<double, 15, 15>;
 /// State of the body at one keyframe (paper Eq. (1)). Tangent of 15: (dp, dtheta, dv, d gyro bias, d accel
 /// bias).
 struct BodyState {
-  SE3 T_world_body;
+  SE3 T_map_body;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, map frame
   ImuBias bias;
 };

@@ -68,7 +68,7 @@ struct Motion {
   BodyState State(double t) const {
     constexpr double h = 1e-4;
     BodyState s;
-    s.T_world_body = {Rotation(t), Position(t)};
+    s.T_map_body = {Rotation(t), Position(t)};
     s.velocity = (Position(t + h) - Position(t - h)) / (2 * h);
     return s;
   }
@@ -93,9 +93,9 @@ struct Motion {
 
 /// Negated time surface as it would be with an event just now under every visible point.
 inline cv::Mat DrawSurface(const AlignmentSettings& settings, const std::vector<Eigen::Vector3f>& points,
-                           const SE3& T_world_body, double sigma = 1.5) {
+                           const SE3& T_map_body, double sigma = 1.5) {
   cv::Mat dots(settings.camera().height, settings.camera().width, CV_32FC1, cv::Scalar(0));
-  const SE3 T = settings.T_camera_body * T_world_body.Inverse();
+  const SE3 T = settings.T_camera_body * T_map_body.Inverse();
   for (const auto& p : points) {
     Eigen::Vector2d uv;
     if (!settings.camera().Project(T * p.cast<double>(), &uv) || !settings.camera().Contains(uv, 1)) continue;

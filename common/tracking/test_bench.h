@@ -55,7 +55,7 @@ struct Bench {
     const VisibilityQuery query = tracker.NextQuery();
     std::vector<std::int32_t> ids;
     std::vector<Eigen::Vector3f> points;
-    const SE3 T = query.T_world_camera.Inverse();
+    const SE3 T = query.T_map_camera.Inverse();
     for (std::size_t k = 0; k < room.size(); ++k) {
       Eigen::Vector2d uv;
       if (!query.camera.Project(T * room[k].cast<double>(), &uv) ||
@@ -69,7 +69,7 @@ struct Bench {
     k.t = t + clock;
     k.seq = seq++;
     k.n_events = seen_points.empty() ? 100 : 20000;
-    k.surface = synthetic::DrawSurface(settings, seen_points, motion.State(ToSeconds(t)).T_world_body);
+    k.surface = synthetic::DrawSurface(settings, seen_points, motion.State(ToSeconds(t)).T_map_body);
     if (last > 0) k.imu = motion.Samples(last, t, bias);
     for (ImuSample& s : k.imu) s.t += clock;
     k.imu_gap = 5000;

@@ -43,12 +43,12 @@ Tracker::Tracker(const Rig& rig, const config::Tracker& config, const SE3& T_map
       alignment_(MakeAlignment(rig, config.window())),
       active_(rig.camera, rig.T_body_camera.Inverse(), static_cast<std::uint64_t>(config.points().seed())),
       window_(alignment_, rig.gravity, config.window()) {
-  state_.T_world_body = anchor_ = T_map_body;
+  state_.T_map_body = anchor_ = T_map_body;
 }
 
 void Tracker::StartFrom(const BodyState& state) {
   state_ = state;
-  anchor_ = state.T_world_body;
+  anchor_ = state.T_map_body;
   anchor_velocity_ = state.velocity;
   reckoned_ = state.velocity.isZero() ? kNoReckoning : 0;
   reason_ = "going on from a checkpoint";
@@ -76,7 +76,7 @@ void Tracker::SetMode(TrackerMode mode, std::string reason) {
 }
 
 void Tracker::Restart(const SE3& T_map_body, const Eigen::Vector3d& velocity, std::string reason) {
-  state_.T_world_body = anchor_ = T_map_body;
+  state_.T_map_body = anchor_ = T_map_body;
   state_.velocity = anchor_velocity_ = velocity;
   reckoned_ = velocity.isZero() ? kNoReckoning : 0;
   frames_.clear();
@@ -86,7 +86,7 @@ void Tracker::Restart(const SE3& T_map_body, const Eigen::Vector3d& velocity, st
 
 VisibilityQuery Tracker::NextQuery() const {
   const double dt = ToSeconds(last_interval_ > 0 ? last_interval_ : kQueryAhead);
-  SE3 pose = state_.T_world_body;
+  SE3 pose = state_.T_map_body;
   pose.p += dt * state_.velocity;
   return QueryFrom(pose);
 }
@@ -95,7 +95,7 @@ VisibilityQuery Tracker::QueryAfter(const KeyframeInput& keyframe) const {
   if (keyframe.imu.empty()) return NextQuery();
   const double dt = ToSeconds(std::clamp<Utime>(keyframe.t - state_time_, 0, kFarthestAhead));
   const BodyState predicted = Predict(keyframe);
-  SE3 pose = predicted.T_world_body;
+  SE3 pose = predicted.T_map_body;
   pose.p += dt * predicted.velocity;
   pose.q = (pose.q * ExpSO3(dt * (keyframe.imu.back().gyro - state_.bias.gyro))).normalized();
   return QueryFrom(pose);
@@ -104,7 +104,7 @@ VisibilityQuery Tracker::QueryAfter(const KeyframeInput& keyframe) const {
 VisibilityQuery Tracker::QueryFrom(const SE3& T_map_body) const {
   const config::Points& points = config_.points();
   VisibilityQuery query;
-  query.T_world_camera = T_map_body * rig_.T_body_camera;
+  query.T_map_camera = T_map_body * rig_.T_body_camera;
   query.camera = rig_.camera;
   query.margin_px = points.margin_px();
   query.min_depth = points.min_depth_m();
@@ -118,9 +118,9 @@ VisibilityQuery Tracker::QueryFrom(const SE3& T_map_body) const {
 void Tracker::AddVisible(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& points) {
   // What the last window saw stays, so that a point does not come and go with the random subset of each
   // answer.
-  std::vector<SE3> poses{state_.T_world_body};
+  std::vector<SE3> poses{state_.T_map_body};
   if (mode_ == TrackerMode::kTracking) {
-    for (const WindowNode& node : window_.nodes()) poses.push_back(node.state.T_world_body);
+    for (const WindowNode& node : window_.nodes()) poses.push_back(node.state.T_map_body);
   }
   active_.Retain(poses, 0);
   if (active_.size() > 2 * static_cast<std::size_t>(config_.points().max_active())) active_.Clear();
@@ -130,8 +130,8 @@ void Tracker::AddVisible(const std::vector<std::int32_t>& ids, const std::vector
 // Points for a keyframe that is expected there, where its events show them.
 AlignmentPoints Tracker::SamplePoints(const BodyState& predicted, int count, std::int64_t seq) const {
   return WhereEventsShow(alignment_,
-                         active_.Sample(predicted.T_world_body, count, static_cast<std::uint64_t>(seq)),
-                         predicted.T_world_body, predicted.velocity, rate_, config_.surface().lag_px());
+                         active_.Sample(predicted.T_map_body, count, static_cast<std::uint64_t>(seq)),
+                         predicted.T_map_body, predicted.velocity, rate_, config_.surface().lag_px());
 }
 
 bool Tracker::Aligned(const AlignmentQuality& quality, double min_contrast) {
@@ -140,7 +140,7 @@ bool Tracker::Aligned(const AlignmentQuality& quality, double min_contrast) {
 
 void Tracker::Finish(const AlignmentPoints& points, TrackerOutput* out) const {
   out->has_pose = true;
-  out->image_speed = MedianImageSpeed(alignment_, points, state_.T_world_body, state_.velocity, rate_);
+  out->image_speed = MedianImageSpeed(alignment_, points, state_.T_map_body, state_.velocity, rate_);
 }
 
 BodyState Tracker::Predict(const KeyframeInput& keyframe) const {
@@ -154,15 +154,15 @@ BodyState Tracker::Predict(const KeyframeInput& keyframe) const {
       if (nodes.size() < 2) break;
       const WindowNode &a = nodes[nodes.size() - 2], &b = nodes.back();
       const double s = dt / ToSeconds(b.t - a.t);
-      const SE3 step = a.state.T_world_body.Inverse() * b.state.T_world_body;
-      predicted.T_world_body.q = (state_.T_world_body.q * ExpSO3(s * LogSO3(step.q))).normalized();
-      predicted.T_world_body.p += s * (b.state.T_world_body.p - a.state.T_world_body.p);
+      const SE3 step = a.state.T_map_body.Inverse() * b.state.T_map_body;
+      predicted.T_map_body.q = (state_.T_map_body.q * ExpSO3(s * LogSO3(step.q))).normalized();
+      predicted.T_map_body.p += s * (b.state.T_map_body.p - a.state.T_map_body.p);
       break;
     }
     default: {
       const NavState nav =
-          PropagateImu({state_.T_world_body, state_.velocity}, keyframe.imu, state_.bias, rig_.gravity);
-      predicted.T_world_body = nav.T_world_body;
+          PropagateImu({state_.T_map_body, state_.velocity}, keyframe.imu, state_.bias, rig_.gravity);
+      predicted.T_map_body = nav.T_map_body;
       predicted.velocity = nav.velocity;
     }
   }
@@ -199,7 +199,7 @@ bool Tracker::Follows(const KeyframeInput& keyframe) {
   const double gap_ms =
       usable ? static_cast<double>(keyframe.imu_gap) * 1e-3 : 1e-3 * (keyframe.t - state_time_);
   if (usable && gap_ms <= config_.failure().max_imu_gap_ms()) return true;
-  SE3 pose = state_.T_world_body;
+  SE3 pose = state_.T_map_body;
   if (keyframe.t <= state_time_) {
     Restart(pose, Eigen::Vector3d::Zero(),
             Text("the clock went back by %.0f ms: starting anew from the last pose", -gap_ms));

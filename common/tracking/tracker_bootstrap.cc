@@ -51,11 +51,11 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, bool follows, Trac
   const bool following = !frames_.empty() && imu != nullptr;
   SE3 predicted = following ? anchor_ : Guess(*field, keyframe.seq);
   if (following) {
-    predicted.q = (state_.T_world_body.q * imu->delta().gamma).normalized();
-    predicted.p = state_.T_world_body.p + imu->dt() * state_.velocity;
+    predicted.q = (state_.T_map_body.q * imu->delta().gamma).normalized();
+    predicted.p = state_.T_map_body.p + imu->dt() * state_.velocity;
   }
   BodyState here = state_;
-  here.T_world_body = predicted;
+  here.T_map_body = predicted;
   AlignmentPoints points = SamplePoints(here, config_.points().per_keyframe(), keyframe.seq);
   const StartSigma& sigma = following ? kFollowSigma : kStartSigma;
   const LocalizerResult fit =
@@ -64,14 +64,14 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, bool follows, Trac
   out->iterations = fit.iterations;
   // A pose far from where it can be is a false minimum, however well the points happen to lie there: the gyro
   // knows the turn between two frames far better than any frame does.
-  const bool plausible = (fit.T_world_body.p - predicted.p).norm() < 4 * sigma.position &&
-                         AngularDistance(fit.T_world_body.q, predicted.q) < 4 * sigma.rotation;
+  const bool plausible = (fit.T_map_body.p - predicted.p).norm() < 4 * sigma.position &&
+                         AngularDistance(fit.T_map_body.q, predicted.q) < 4 * sigma.rotation;
   if (!plausible || !Aligned(fit.quality, config_.bootstrap().min_contrast())) {
     Refuse(points.size());
     return;
   }
-  state_.T_world_body = fit.T_world_body;
-  frames_.push_back({{keyframe.t, fit.T_world_body, imu}, keyframe.seq, field, points});
+  state_.T_map_body = fit.T_map_body;
+  frames_.push_back({{keyframe.t, fit.T_map_body, imu}, keyframe.seq, field, points});
   if (frames_.size() > kMaxFrames) frames_.erase(frames_.begin());
   state_.velocity = RecentVelocity();
   if (state_.velocity.norm() > config_.failure().max_speed()) {
@@ -82,7 +82,7 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, bool follows, Trac
   // velocity do not.
   if (frames_.size() < kSureFrames) return;
   bad_frames_ = 0;
-  anchor_ = fit.T_world_body;
+  anchor_ = fit.T_map_body;
   anchor_velocity_ = state_.velocity;
   reckoned_ = 0;
   if (mode_ == TrackerMode::kLost) SetMode(TrackerMode::kBootstrapping, "found the map again");
@@ -99,14 +99,14 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, bool follows, Trac
 void Tracker::MoveAnchor(const std::vector<ImuSample>& samples) {
   constexpr Utime kLongest = 1'500'000;  // us: by then the position may be decimetres off
   const NavState moved = PropagateImu({anchor_, anchor_velocity_}, samples, state_.bias, rig_.gravity);
-  anchor_.q = moved.T_world_body.q;
+  anchor_.q = moved.T_map_body.q;
   // A velocity no body has comes from a reading that is none.
   if (reckoned_ >= kLongest || !(moved.velocity.norm() <= config_.failure().max_speed())) {
     anchor_velocity_.setZero();
     reckoned_ = kNoReckoning;
     return;
   }
-  anchor_.p = moved.T_world_body.p;
+  anchor_.p = moved.T_map_body.p;
   anchor_velocity_ = moved.velocity;
   reckoned_ += samples.back().t - samples.front().t;
 }
@@ -116,7 +116,7 @@ void Tracker::MoveAnchor(const std::vector<ImuSample>& samples) {
 SE3 Tracker::Guess(const SurfaceField& field, std::int64_t seq) const {
   if (bad_frames_ <= kAnchorOnly) return anchor_;
   BodyState here = state_;
-  here.T_world_body = anchor_;
+  here.T_map_body = anchor_;
   const double radius = std::min(kWidest, kNarrowest + kWidening * bad_frames_);
   return BestPlace(alignment_, field, SamplePoints(here, kPlacePoints, seq), anchor_, radius,
                    1 + kPlaces * bad_frames_, kPlaces);
@@ -124,7 +124,7 @@ SE3 Tracker::Guess(const SurfaceField& field, std::int64_t seq) const {
 
 void Tracker::Refuse(std::size_t n_points) {
   frames_.clear();  // the chain must have no holes
-  state_.T_world_body = anchor_;
+  state_.T_map_body = anchor_;
   state_.velocity = anchor_velocity_;
   ++bad_frames_;
   if (mode_ == TrackerMode::kLost) return;
@@ -143,15 +143,15 @@ Eigen::Vector3d Tracker::RecentVelocity() const {
   if (frames_.size() < 2) return Eigen::Vector3d::Zero();
   const BootstrapFrame& a = frames_[frames_.size() > 5 ? frames_.size() - 5 : 0].frame;
   const BootstrapFrame& b = frames_.back().frame;
-  return (b.T_world_body.p - a.T_world_body.p) / ToSeconds(b.t - a.t);
+  return (b.T_map_body.p - a.T_map_body.p) / ToSeconds(b.t - a.t);
 }
 
 bool Tracker::ReadyToBootstrap() const {
   const config::Bootstrap& c = config_.bootstrap();
   if (static_cast<int>(frames_.size()) < std::max(c.min_frames(), 3)) return false;
   const BootstrapFrame &first = frames_.front().frame, &last = frames_.back().frame;
-  const double moved = (last.T_world_body.p - first.T_world_body.p).norm();
-  const double turned = AngularDistance(first.T_world_body.q, last.T_world_body.q);
+  const double moved = (last.T_map_body.p - first.T_map_body.p).norm();
+  const double turned = AngularDistance(first.T_map_body.q, last.T_map_body.q);
   return moved >= c.min_displacement_m() || turned >= c.min_rotation_deg() * EIGEN_PI / 180 ||
          ToSeconds(last.t - first.t) >= c.max_duration_s();
 }

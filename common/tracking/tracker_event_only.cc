@@ -19,15 +19,15 @@ constexpr int kPatience = 30;             // frames that do not fit before it sa
 void Tracker::ProcessEventOnly(const KeyframeInput& keyframe, TrackerOutput* out) {
   // Since the newest frame that fitted: the state is that one's.
   const double dt = aligned_at_ > 0 ? ToSeconds(keyframe.t - aligned_at_) : 0;
-  const SE3 previous = state_.T_world_body;
+  const SE3 previous = state_.T_map_body;
   BodyState predicted = state_;
   if (config_.window().motion_model() >= 1 && dt > 0) {  // constant velocity
-    predicted.T_world_body.p += dt * state_.velocity;
-    predicted.T_world_body.q = (previous.q * ExpSO3(dt * rate_)).normalized();
+    predicted.T_map_body.p += dt * state_.velocity;
+    predicted.T_map_body.q = (previous.q * ExpSO3(dt * rate_)).normalized();
   }
   const SurfaceField field(keyframe.surface, kLevels);
   const AlignmentPoints points = SamplePoints(predicted, config_.points().per_keyframe(), keyframe.seq);
-  const LocalizerResult fit = Localize(alignment_, field, points, predicted.T_world_body, kStart, kLevels);
+  const LocalizerResult fit = Localize(alignment_, field, points, predicted.T_map_body, kStart, kLevels);
   out->quality = fit.quality;
   out->iterations = fit.iterations;
   const bool good = Aligned(fit.quality, config_.failure().min_contrast());
@@ -39,14 +39,13 @@ void Tracker::ProcessEventOnly(const KeyframeInput& keyframe, TrackerOutput* out
     SetMode(TrackerMode::kLost, "the map does not lie on the events (event-only)");
   } else if (good) {
     if (dt > 0) {
-      state_.velocity = (fit.T_world_body.p - previous.p) / dt;
-      rate_ = LogSO3(previous.q.conjugate() * fit.T_world_body.q) / dt;
+      state_.velocity = (fit.T_map_body.p - previous.p) / dt;
+      rate_ = LogSO3(previous.q.conjugate() * fit.T_map_body.q) / dt;
     }
-    state_.T_world_body = fit.T_world_body;
+    state_.T_map_body = fit.T_map_body;
     aligned_at_ = keyframe.t;
     SetMode(TrackerMode::kTracking, "tracking (event-only)");
-    const Matrix6d alignment =
-        EvaluateAlignment(alignment_, field, 0, points, fit.T_world_body, true).hessian;
+    const Matrix6d alignment = EvaluateAlignment(alignment_, field, 0, points, fit.T_map_body, true).hessian;
     out->information.topLeftCorner<6, 6>() = alignment;
     out->information.bottomRightCorner<9, 9>().setIdentity();
     out->covariance =

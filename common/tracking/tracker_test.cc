@@ -11,7 +11,7 @@ using synthetic::Motion;
 
 TEST(Tracker, BootstrapsAndTracksASyntheticRoom) {
   const Motion motion;
-  const SE3 start = motion.State(1.0).T_world_body.Plus(
+  const SE3 start = motion.State(1.0).T_map_body.Plus(
       (Eigen::Matrix<double, 6, 1>() << 0.02, -0.02, 0.01, 0.01, -0.01, 0.01).finished());
   for (const auto first : {config::Window::PRIOR, config::Window::FIXED}) {
     config::Tracker config = TestConfig();
@@ -27,9 +27,9 @@ TEST(Tracker, BootstrapsAndTracksASyntheticRoom) {
       out = bench.Step(t, bench.room);
       if (out.mode == TrackerMode::kTracking) {
         ++tracked;
-        const SE3 truth = motion.State(ToSeconds(t)).T_world_body;
-        worst = std::max(worst, (out.nodes.back().state.T_world_body.p - truth.p).norm());
-        worst_angle = std::max(worst_angle, AngularDistance(truth.q, out.nodes.back().state.T_world_body.q));
+        const SE3 truth = motion.State(ToSeconds(t)).T_map_body;
+        worst = std::max(worst, (out.nodes.back().state.T_map_body.p - truth.p).norm());
+        worst_angle = std::max(worst_angle, AngularDistance(truth.q, out.nodes.back().state.T_map_body.q));
       }
       t += out.mode == TrackerMode::kTracking ? 25'000 : 10'000;
     }
@@ -47,10 +47,10 @@ TEST(Tracker, SameInputSameOutput) {
   const Motion motion;
   std::vector<SE3> results;
   for (int run = 0; run < 2; ++run) {
-    Bench bench(TestConfig(), motion.State(1.0).T_world_body);
+    Bench bench(TestConfig(), motion.State(1.0).T_map_body);
     TrackerOutput out;
     for (Utime t = 1'000'000; t < 1'500'000; t += 10'000) out = bench.Step(t, bench.room);
-    results.push_back(out.nodes.back().state.T_world_body);
+    results.push_back(out.nodes.back().state.T_map_body);
   }
   EXPECT_EQ(results[0].p, results[1].p);
   EXPECT_EQ(results[0].q.coeffs(), results[1].q.coeffs());
@@ -58,7 +58,7 @@ TEST(Tracker, SameInputSameOutput) {
 
 TEST(Tracker, SaysLostWhenTheWorldIsNotTheMap) {
   const Motion motion;
-  Bench bench(TestConfig(), motion.State(1.0).T_world_body);
+  Bench bench(TestConfig(), motion.State(1.0).T_map_body);
   Utime t = 1'000'000;
   TrackerOutput out = bench.UntilTracking(&t);
   ASSERT_EQ(out.mode, TrackerMode::kTracking);
@@ -73,24 +73,24 @@ TEST(Tracker, FindsTheMapAgainWhileTheBodyMoves) {
   const Motion motion{0.4, 0.3};
   config::Tracker config = TestConfig();
   config.mutable_failure()->set_max_coast_s(0.2);
-  Bench bench(config, motion.State(1.0).T_world_body);
+  Bench bench(config, motion.State(1.0).T_map_body);
   bench.motion = motion;
   Utime t = 1'000'000;
   TrackerOutput out = bench.UntilTracking(&t);
   ASSERT_EQ(out.mode, TrackerMode::kTracking);
   for (int k = 0; k < 20; ++k) out = bench.Step(t += 25'000, bench.room);
   const auto other = synthetic::RoomPoints(60, 99);
-  const Eigen::Vector3d before = motion.State(ToSeconds(t)).T_world_body.p;
+  const Eigen::Vector3d before = motion.State(ToSeconds(t)).T_map_body.p;
   const Utime begin = t;
   while (t < begin + 900'000)
     out = bench.Step(t += out.mode == TrackerMode::kTracking ? 25'000 : 10'000, other);
   ASSERT_EQ(out.mode, TrackerMode::kLost);
-  ASSERT_GT((motion.State(ToSeconds(t)).T_world_body.p - before).norm(),
+  ASSERT_GT((motion.State(ToSeconds(t)).T_map_body.p - before).norm(),
             0.3);  // far beyond what a single start finds
   for (int k = 0; k < 60 && out.mode != TrackerMode::kTracking; ++k)
     out = bench.Step(t += 10'000, bench.room);
   ASSERT_EQ(out.mode, TrackerMode::kTracking) << out.reason;
-  EXPECT_LT((out.nodes.back().state.T_world_body.p - motion.State(ToSeconds(t)).T_world_body.p).norm(), 0.02);
+  EXPECT_LT((out.nodes.back().state.T_map_body.p - motion.State(ToSeconds(t)).T_map_body.p).norm(), 0.02);
 }
 
 TEST(Tracker, LateEventsCountAlongTheMotion) {
@@ -102,7 +102,7 @@ TEST(Tracker, LateEventsCountAlongTheMotion) {
     config::Tracker config = TestConfig();
     config.mutable_window()->set_stamp_sigma_us(covariance == &with ? 1e6 * kSigma : 0);
     t = 1'000'000;
-    Bench bench(config, motion.State(ToSeconds(t)).T_world_body);
+    Bench bench(config, motion.State(ToSeconds(t)).T_map_body);
     TrackerOutput out;
     for (int k = 0; k < 80; ++k)
       out = bench.Step(t += out.mode == TrackerMode::kTracking ? 25'000 : 10'000, bench.room);
@@ -120,15 +120,14 @@ TEST(Tracker, EventOnlyTracksWithoutTheImu) {
   config::Tracker config = TestConfig();
   config.set_method(config::Tracker::EVT);
   config.mutable_window()->set_motion_model(0);
-  Bench bench(config, motion.State(1.0).T_world_body);
+  Bench bench(config, motion.State(1.0).T_map_body);
   bench.bias = {{9, 9, 9}, {99, 99, 99}};  // nothing of it is used
   TrackerOutput out;
   for (Utime t = 1'000'000; t <= 2'000'000; t += 3'333) {
     out = bench.Step(t, bench.room);
     ASSERT_EQ(out.mode, TrackerMode::kTracking);
     ASSERT_TRUE(out.has_pose);
-    EXPECT_LT((out.nodes.back().state.T_world_body.p - motion.State(ToSeconds(t)).T_world_body.p).norm(),
-              0.02);
+    EXPECT_LT((out.nodes.back().state.T_map_body.p - motion.State(ToSeconds(t)).T_map_body.p).norm(), 0.02);
   }
   EXPECT_GT(out.covariance(0, 0), 0);
   const auto other = synthetic::RoomPoints(60, 99);

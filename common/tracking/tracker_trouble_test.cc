@@ -14,7 +14,7 @@ TEST(Tracker, CoastsOnTheImuWhileThereAreNoEvents) {
   const Motion motion;
   config::Tracker config = TestConfig();
   config.mutable_failure()->set_max_coast_s(1.5);
-  Bench bench(config, motion.State(1.0).T_world_body);
+  Bench bench(config, motion.State(1.0).T_map_body);
   Utime t = 1'000'000;
   TrackerOutput out = bench.UntilTracking(&t);
   for (int k = 0; k < 20; ++k) out = bench.Step(t += 25'000, bench.room);
@@ -32,7 +32,7 @@ TEST(Tracker, CoastsOnTheImuWhileThereAreNoEvents) {
   }
   EXPECT_GT(before, 3 * known);
   const auto error = [&] {
-    return (out.nodes.back().state.T_world_body.p - motion.State(ToSeconds(t)).T_world_body.p).norm();
+    return (out.nodes.back().state.T_map_body.p - motion.State(ToSeconds(t)).T_map_body.p).norm();
   };
   EXPECT_LT(error(), 3 * before);
   for (int k = 0; k < 5; ++k) out = bench.Step(t += 25'000, bench.room);
@@ -48,7 +48,7 @@ TEST(Tracker, CoastsOnTheImuWhileThereAreNoEvents) {
 TEST(Tracker, AClockThatJumpsIsSaidAndTrackingResumes) {
   for (const Utime jump : {Utime{-5'000'000}, Utime{3'600'000'000}}) {
     const Motion motion;
-    Bench bench(TestConfig(), motion.State(1.0).T_world_body);
+    Bench bench(TestConfig(), motion.State(1.0).T_map_body);
     Utime t = 1'000'000;
     TrackerOutput out = bench.UntilTracking(&t);
     ASSERT_EQ(out.mode, TrackerMode::kTracking);
@@ -64,7 +64,7 @@ TEST(Tracker, AClockThatJumpsIsSaidAndTrackingResumes) {
 
 TEST(Tracker, ASolveCutShortKeepsTheBestSoFar) {
   const Motion motion;
-  Bench bench(TestConfig(), motion.State(1.0).T_world_body);
+  Bench bench(TestConfig(), motion.State(1.0).T_map_body);
   Utime t = 1'000'000;
   TrackerOutput out = bench.UntilTracking(&t);
   ASSERT_EQ(out.mode, TrackerMode::kTracking);
@@ -79,12 +79,12 @@ TEST(Tracker, ASolveCutShortKeepsTheBestSoFar) {
   }
   EXPECT_LT(cut, whole);
   EXPECT_EQ(out.mode, TrackerMode::kTracking) << out.reason;  // prediction and warm start carry it
-  EXPECT_LT((out.nodes.back().state.T_world_body.p - motion.State(ToSeconds(t)).T_world_body.p).norm(), 0.03);
+  EXPECT_LT((out.nodes.back().state.T_map_body.p - motion.State(ToSeconds(t)).T_map_body.p).norm(), 0.03);
 }
 
 TEST(Tracker, ImuGapIsReportedAndTrackingResumes) {
   const Motion motion;
-  Bench bench(TestConfig(), motion.State(1.0).T_world_body);
+  Bench bench(TestConfig(), motion.State(1.0).T_map_body);
   Utime t = 1'000'000;
   TrackerOutput out = bench.UntilTracking(&t);
   ASSERT_EQ(out.mode, TrackerMode::kTracking);
@@ -92,7 +92,7 @@ TEST(Tracker, ImuGapIsReportedAndTrackingResumes) {
   gap.t = t += 40'000;
   gap.seq = bench.seq++;
   gap.n_events = 20000;
-  gap.surface = synthetic::DrawSurface(bench.settings, bench.room, motion.State(ToSeconds(t)).T_world_body);
+  gap.surface = synthetic::DrawSurface(bench.settings, bench.room, motion.State(ToSeconds(t)).T_map_body);
   gap.imu = motion.Samples(bench.last, t, bench.bias);
   gap.imu_gap = 300'000;
   bench.last = t;

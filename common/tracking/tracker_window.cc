@@ -28,7 +28,7 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
   const SlidingWindow::Summary summary = window_.Solve();
   out->iterations = summary.iterations;
   out->quality = MeasureAlignment(alignment_, *window_.nodes().back().field, window_.nodes().back().points,
-                                  window_.nodes().back().state.T_world_body);
+                                  window_.nodes().back().state.T_map_body);
   // A surface that the map does not lie on would only pull the pose away: the IMU knows better for a while.
   std::string coasting;
   if (!eventful) {
@@ -56,7 +56,7 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
                       state_.bias.accel.norm() <= config_.failure().max_accel_bias();
     if (!sane) state_.bias = {};
     // Where it has diverged, the prediction from the state before is the better place to look.
-    Restart(sane ? state_.T_world_body : before.back().T_world_body,
+    Restart(sane ? state_.T_map_body : before.back().T_map_body,
             sane ? state_.velocity : Eigen::Vector3d::Zero(), "");
     SetMode(TrackerMode::kLost, trouble);
     return;

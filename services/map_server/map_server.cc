@@ -15,7 +15,7 @@ constexpr double kMaxMargin = 2000;  // pixels: the depth buffer covers the marg
 
 VisibilityQuery FromMessage(const map_query_t& m) {
   VisibilityQuery q;
-  q.T_world_camera = {
+  q.T_map_camera = {
       Eigen::Quaterniond(m.orientation[3], m.orientation[0], m.orientation[1], m.orientation[2]).normalized(),
       Eigen::Vector3d(m.position)};
   CameraModelFromName(m.camera.model, &q.camera.model);

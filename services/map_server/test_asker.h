@@ -55,8 +55,8 @@ class Asker {
 /// A query as it is asked of the library.
 inline VisibilityQuery LibraryQuery() {
   VisibilityQuery q;
-  q.T_world_camera = {Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized())),
-                      {0.1, -0.2, 0.3}};
+  q.T_map_camera = {Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized())),
+                    {0.1, -0.2, 0.3}};
   q.camera = PlumbBob();
   q.margin_px = 30;
   q.min_depth = 0.2;
@@ -73,8 +73,8 @@ inline map_query_t QueryMessage(std::int64_t seq) {
   m.utime = 1'000'000 + seq;
   m.seq = seq;
   m.epoch = 5;
-  for (int k = 0; k < 3; ++k) m.position[k] = q.T_world_camera.p[k];
-  for (int k = 0; k < 4; ++k) m.orientation[k] = q.T_world_camera.q.coeffs()[k];
+  for (int k = 0; k < 3; ++k) m.position[k] = q.T_map_camera.p[k];
+  for (int k = 0; k < 4; ++k) m.orientation[k] = q.T_map_camera.q.coeffs()[k];
   m.camera.model = "plumb_bob";
   m.camera.width = q.camera.width;
   m.camera.height = q.camera.height;

@@ -10,13 +10,13 @@ using StateVector = Eigen::Matrix<double, 16, 1>;
 
 StateVector ToVector(const BodyState& state) {
   StateVector v;
-  v << state.T_world_body.p, state.T_world_body.q.coeffs(), state.velocity, state.bias.gyro, state.bias.accel;
+  v << state.T_map_body.p, state.T_map_body.q.coeffs(), state.velocity, state.bias.gyro, state.bias.accel;
   return v;
 }
 
 BodyState FromVector(const StateVector& v) {
   BodyState state;
-  state.T_world_body = {Eigen::Quaterniond(v[6], v[3], v[4], v[5]), v.head<3>()};
+  state.T_map_body = {Eigen::Quaterniond(v[6], v[3], v[4], v[5]), v.head<3>()};
   state.velocity = v.segment<3>(7);
   state.bias = {v.segment<3>(10), v.segment<3>(13)};
   return state;
@@ -27,8 +27,8 @@ BodyState FromVector(const StateVector& v) {
 BodyState Checkpoint::After(Utime dt) const {
   const double s = ToSeconds(dt);
   BodyState later = state;
-  later.T_world_body.p += s * state.velocity;
-  later.T_world_body.q = (state.T_world_body.q * ExpSO3(s * rate)).normalized();
+  later.T_map_body.p += s * state.velocity;
+  later.T_map_body.q = (state.T_map_body.q * ExpSO3(s * rate)).normalized();
   return later;
 }
 
@@ -57,7 +57,7 @@ std::optional<Checkpoint> CheckpointFile::Load() const {
   c.rate = Eigen::Map<const Eigen::Vector3d>(r->rate);
   c.information = Eigen::Map<const Matrix15d>(r->information);
   const bool sane = state.allFinite() && c.rate.allFinite() && c.information.allFinite() &&
-                    std::isfinite(c.image_speed) && std::abs(c.state.T_world_body.q.norm() - 1) < 1e-6;
+                    std::isfinite(c.image_speed) && std::abs(c.state.T_map_body.q.norm() - 1) < 1e-6;
   return sane ? std::optional<Checkpoint>(c) : std::nullopt;
 }
 

@@ -14,7 +14,7 @@ Checkpoint Example() {
   c.t = 1'642'661'138'836'530;
   c.keyframe_epoch = 77;
   c.keyframe_seq = 12;
-  c.state.T_world_body = {ExpSO3({0.1, -2, 0.3}), {1.0 / 3, -2, 1e-9}};
+  c.state.T_map_body = {ExpSO3({0.1, -2, 0.3}), {1.0 / 3, -2, 1e-9}};
   c.state.velocity = {1, -0.5, 0.25};
   c.state.bias = {{0.001, 0.002, 0.003}, {0.01, 0.02, 0.03}};
   c.rate = {0, 0, 1.5};
@@ -38,8 +38,8 @@ TEST_F(CheckpointTest, ComesBackBitForBit) {
   EXPECT_EQ(back->t, Example().t);
   EXPECT_EQ(back->keyframe_epoch, 77);
   EXPECT_EQ(back->keyframe_seq, 12);
-  EXPECT_EQ(back->state.T_world_body.p, Example().state.T_world_body.p);
-  EXPECT_EQ(back->state.T_world_body.q.coeffs(), Example().state.T_world_body.q.coeffs());
+  EXPECT_EQ(back->state.T_map_body.p, Example().state.T_map_body.p);
+  EXPECT_EQ(back->state.T_map_body.q.coeffs(), Example().state.T_map_body.q.coeffs());
   EXPECT_EQ(back->state.velocity, Example().state.velocity);
   EXPECT_EQ(back->state.bias.gyro, Example().state.bias.gyro);
   EXPECT_EQ(back->state.bias.accel, Example().state.bias.accel);
@@ -54,16 +54,16 @@ TEST_F(CheckpointTest, NonsenseIsNotTaken) {
   CheckpointFile(path_).Store(bad);
   EXPECT_FALSE(CheckpointFile(path_).Load());
   bad = Example();
-  bad.state.T_world_body.q.coeffs() *= 2;
+  bad.state.T_map_body.q.coeffs() *= 2;
   CheckpointFile(path_).Store(bad);
   EXPECT_FALSE(CheckpointFile(path_).Load());
 }
 
 TEST_F(CheckpointTest, GoesOnAtConstantVelocityAndRate) {
   const BodyState later = Example().After(200'000);
-  EXPECT_LT((later.T_world_body.p - Example().state.T_world_body.p - Eigen::Vector3d(0.2, -0.1, 0.05)).norm(),
+  EXPECT_LT((later.T_map_body.p - Example().state.T_map_body.p - Eigen::Vector3d(0.2, -0.1, 0.05)).norm(),
             1e-12);
-  EXPECT_NEAR(AngularDistance(later.T_world_body.q, Example().state.T_world_body.q), 0.3, 1e-9);
+  EXPECT_NEAR(AngularDistance(later.T_map_body.q, Example().state.T_map_body.q), 0.3, 1e-9);
 }
 
 }  // namespace

@@ -73,8 +73,7 @@ void WindowOptimizer::StartWork(Waiting next) {
   }
   if (settings_.lossless && tracking) {
     // Deterministic: the poses of this interval come from the state before it, as they would have live.
-    PublishPoses(input.imu, {tracker_.state().T_world_body, tracker_.state().velocity},
-                 tracker_.state().bias);
+    PublishPoses(input.imu, {tracker_.state().T_map_body, tracker_.state().velocity}, tracker_.state().bias);
   }
   if (tracking) AskForPoints(tracker_.QueryAfter(input));
   work_.emplace();
@@ -135,7 +134,7 @@ void WindowOptimizer::Report(const TrackerOutput& output, const keyframe_t& keyf
                              tracker_.rate(), output.image_speed});
   }
   if (!settings_.lossless && output.mode == TrackerMode::kTracking) {
-    live_ = {state.T_world_body, state.velocity};
+    live_ = {state.T_map_body, state.velocity};
     live_bias_ = state.bias;
     live_time_ = keyframe.utime;
   } else {

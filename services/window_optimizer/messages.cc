@@ -50,8 +50,8 @@ void Absorb(const keyframe_t& before, keyframe_t* after) {
 
 map_query_t ToMessage(const VisibilityQuery& q) {
   map_query_t m{};
-  Copy(q.T_world_camera.p, m.position);
-  Copy(q.T_world_camera.q, m.orientation);
+  Copy(q.T_map_camera.p, m.position);
+  Copy(q.T_map_camera.q, m.orientation);
   m.camera.model = CameraModelName(q.camera.model);
   m.camera.width = q.camera.width;
   m.camera.height = q.camera.height;
@@ -83,8 +83,8 @@ window_state_t ToWindowState(const TrackerOutput& output) {
     node_state_t n{};
     n.utime = node.t;
     n.keyframe_seq = node.seq;
-    Copy(node.state.T_world_body.p, n.position);
-    Copy(node.state.T_world_body.q, n.orientation);
+    Copy(node.state.T_map_body.p, n.position);
+    Copy(node.state.T_map_body.q, n.orientation);
     Copy(node.state.velocity, n.velocity);
     Copy(node.state.bias.gyro, n.gyro_bias);
     Copy(node.state.bias.accel, n.accel_bias);
@@ -122,8 +122,8 @@ tracker_mode_t ToTrackerMode(const TrackerOutput& output, const BodyState& state
 body_pose_t ToBodyPose(Utime t, const NavState& state) {
   body_pose_t m{};
   m.utime = t;
-  Copy(state.T_world_body.p, m.position);
-  Copy(state.T_world_body.q, m.orientation);
+  Copy(state.T_map_body.p, m.position);
+  Copy(state.T_map_body.q, m.orientation);
   Copy(state.velocity, m.velocity);
   return m;
 }

@@ -174,7 +174,7 @@ void PhotometricOptimizer::Report(const TrackerOutput& output, const Waiting& ke
     window.total_ms = Milliseconds(Clock::now() - keyframe.arrived);
     status_.AddTiming("keyframe", window.total_ms);
     Send(channels_.window_state, &window, &window_seq_);
-    body_pose_t pose = ToBodyPose(message.utime, {tracker_.state().T_world_body, tracker_.state().velocity});
+    body_pose_t pose = ToBodyPose(message.utime, {tracker_.state().T_map_body, tracker_.state().velocity});
     Send(channels_.body_pose, &pose, &pose_seq_);
   }
   last_mode_ = ToTrackerMode(output, tracker_.state(), message.utime, message.seq);

@@ -58,7 +58,7 @@ bool WindowOptimizer::Resumed() {
   const Utime dt = queue_.front().message.utime - checkpoint.t;
   if (dt < 0 || dt > kLongest) {
     BodyState start;
-    start.T_world_body = settings_.T_map_body;
+    start.T_map_body = settings_.T_map_body;
     tracker_.StartFrom(start);
     ++status_.Counter("checkpoint.stale");
   } else {

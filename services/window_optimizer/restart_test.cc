@@ -30,7 +30,7 @@ TEST_F(WindowOptimizerTest, RestartedItGoesOnWithoutMissingAKeyframe) {
     EXPECT_EQ(windows_[k].keyframe_seq, last + 1 + static_cast<std::int64_t>(k));
     EXPECT_EQ(windows_[k].mode, tracker_mode_t::TRACKING);
     const node_state_t& newest = windows_[k].node.back();
-    const SE3 truth = motion_.State(ToSeconds(newest.utime)).T_world_body;
+    const SE3 truth = motion_.State(ToSeconds(newest.utime)).T_map_body;
     EXPECT_LT((Eigen::Vector3d(newest.position) - truth.p).norm(), 0.006);
   }
   EXPECT_EQ(Counter("checkpoint.resumed"), 1);
@@ -86,7 +86,7 @@ TEST_F(WindowOptimizerTest, RestartedWhileBootstrappingItGoesOnToo) {
   ASSERT_EQ(modes_.back().mode, tracker_mode_t::TRACKING);
   EXPECT_EQ(modes_.back().keyframe_epoch, 77);
   const node_state_t& newest = windows_.back().node.back();
-  const SE3 truth = motion_.State(ToSeconds(newest.utime)).T_world_body;
+  const SE3 truth = motion_.State(ToSeconds(newest.utime)).T_map_body;
   EXPECT_LT((Eigen::Vector3d(newest.position) - truth.p).norm(), 0.01);
   EXPECT_EQ(Counter("checkpoint.resumed"), 1);
 }

@@ -33,7 +33,7 @@ class WindowOptimizerTest : public OptimizerPeer {
     settings.rig.T_body_camera = synthetic::BodyCamera();
     settings.rig.imu_noise = {7e-4, 1.3e-3, 7e-6, 6e-5};
     settings.tracker = LoadTracker(std::string(EVIT_SOURCE_DIR) + "/config/tracker.textproto");
-    settings.T_map_body = motion_.State(1.0).T_world_body;
+    settings.T_map_body = motion_.State(1.0).T_map_body;
     settings.lossless = lossless;
     service_ = std::make_unique<WindowOptimizer>(service_bus_.get(), channels_, settings);
     Pump();
@@ -91,7 +91,7 @@ class WindowOptimizerTest : public OptimizerPeer {
     k.height = 480;
     k.n_surfaces = 1;
     k.surface_size = 640 * 480;
-    const cv::Mat image = synthetic::DrawSurface(alignment_, room_, motion_.State(ToSeconds(t)).T_world_body);
+    const cv::Mat image = synthetic::DrawSurface(alignment_, room_, motion_.State(ToSeconds(t)).T_map_body);
     k.surface.assign(1, std::vector<std::uint8_t>(image.datastart, image.dataend));
     for (const ImuSample& s : motion_.Samples(k.previous_utime, t, {})) {
       k.imu_utime.push_back(s.t);

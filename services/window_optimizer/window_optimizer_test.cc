@@ -20,7 +20,7 @@ TEST_F(WindowOptimizerTest, TracksAndAnswersEveryKeyframe) {
   ASSERT_FALSE(windows_.empty());
   const node_state_t& newest = windows_.back().node.back();
   EXPECT_EQ(newest.utime, last_);
-  const SE3 truth = motion_.State(ToSeconds(last_)).T_world_body;
+  const SE3 truth = motion_.State(ToSeconds(last_)).T_map_body;
   EXPECT_LT((Eigen::Vector3d(newest.position) - truth.p).norm(), 0.006);
   EXPECT_GE(queries_, keyframe_seq_);
   ASSERT_GT(poses_.size(), 100U);  // IMU rate: five per keyframe of 25 ms

@@ -5,9 +5,9 @@
 #include "common/evaluation/covariance_file.h"
 #include "common/evaluation/trajectory.h"
 #include "tests/fuzz/temporary_file.h"
-#include "tools/rpg/rpg_events.h"
-#include "tools/rpg/rpg_tables.h"
-#include "tools/vector/imu_file.h"
+#include "tools/formats/rpg/rpg_events.h"
+#include "tools/formats/rpg/rpg_tables.h"
+#include "tools/formats/vector/imu_file.h"
 
 namespace {
 

@@ -1,8 +1,8 @@
 #include <memory>
 
 #include "common/config/config.h"
-#include "tools/bag/bag_import.h"
 #include "tools/evit/import_options.h"
+#include "tools/formats/bag/bag_import.h"
 
 namespace evit {
 

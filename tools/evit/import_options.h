@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "tools/import/import_log.h"
+#include "tools/formats/import/import_log.h"
 
 /// What the subcommands of `evit import`, one per source, share.
 namespace evit {

@@ -5,7 +5,7 @@
 
 #include "tools/evit/import_options.h"
 #include "tools/evit/options.h"
-#include "tools/rpg/rpg_import.h"
+#include "tools/formats/rpg/rpg_import.h"
 
 namespace evit {
 namespace {

@@ -3,7 +3,7 @@
 #include "common/config/config.h"
 #include "tools/evit/import_options.h"
 #include "tools/evit/options.h"
-#include "tools/vector/sequence_import.h"
+#include "tools/formats/vector/sequence_import.h"
 
 namespace evit {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "tools/evit/commands.h"
+#include "tools/formats/rgbd/rgbd_folder.h"
 #include "tools/progress.h"
-#include "tools/rgbd/rgbd_folder.h"
 
 namespace evit {
 namespace {

@@ -52,8 +52,8 @@ bool KeyframeLog::Read(std::int64_t seq, RecordedKeyframe* keyframe) const {
 BodyState StateOf(const node_state_t& node) {
   BodyState state;
   const double* q = node.orientation;
-  state.T_world_body = {Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(),
-                        Eigen::Vector3d(node.position)};
+  state.T_map_body = {Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(),
+                      Eigen::Vector3d(node.position)};
   state.velocity = Eigen::Vector3d(node.velocity);
   state.bias = {Eigen::Vector3d(node.gyro_bias), Eigen::Vector3d(node.accel_bias)};
   return state;
@@ -63,14 +63,14 @@ SE3 PredictFrom(const window_state_t& before, const RecordedKeyframe& keyframe, 
                 double gravity) {
   const node_state_t &a = before.node.at(before.node.size() - 2), &b = before.node.back();
   const BodyState older = StateOf(a), newer = StateOf(b);
-  if (motion_model == 0) return newer.T_world_body;
+  if (motion_model == 0) return newer.T_map_body;
   if (motion_model == 1) {
     const double s = ToSeconds(keyframe.t - b.utime) / ToSeconds(b.utime - a.utime);
-    const Eigen::Quaterniond turn = older.T_world_body.q.conjugate() * newer.T_world_body.q;
-    return {(newer.T_world_body.q * ExpSO3(s * LogSO3(turn))).normalized(),
-            newer.T_world_body.p + s * (newer.T_world_body.p - older.T_world_body.p)};
+    const Eigen::Quaterniond turn = older.T_map_body.q.conjugate() * newer.T_map_body.q;
+    return {(newer.T_map_body.q * ExpSO3(s * LogSO3(turn))).normalized(),
+            newer.T_map_body.p + s * (newer.T_map_body.p - older.T_map_body.p)};
   }
-  return PropagateImu({newer.T_world_body, newer.velocity}, keyframe.imu, newer.bias, gravity).T_world_body;
+  return PropagateImu({newer.T_map_body, newer.velocity}, keyframe.imu, newer.bias, gravity).T_map_body;
 }
 
 double MeanPixelDistance(const Rig& rig, const std::vector<Eigen::Vector3f>& points, const SE3& T_map_body_a,

@@ -30,7 +30,7 @@ Instant MostSurprising(const KeyframeLog& log, const Rig& rig, const MapIndex& m
     if (before.n_nodes < 4 || after.keyframe_seq != before.keyframe_seq + 1 ||
         !log.Read(after.keyframe_seq, &keyframe) || keyframe.imu.size() < 2)
       continue;
-    const SE3 found = StateOf(after.node.back()).T_world_body;
+    const SE3 found = StateOf(after.node.back()).T_map_body;
     const double off = MeanPixelDistance(rig, VisibleFrom(map, rig, found, 300), found,
                                          PredictFrom(before, keyframe, 1, rig.gravity));
     if (off <= most) continue;

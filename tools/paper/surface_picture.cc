@@ -7,7 +7,7 @@ namespace evit {
 std::vector<Eigen::Vector3f> VisibleFrom(const MapIndex& map, const Rig& rig, const SE3& T_map_body,
                                          int most) {
   VisibilityQuery query;
-  query.T_world_camera = T_map_body * rig.T_body_camera;
+  query.T_map_camera = T_map_body * rig.T_body_camera;
   query.camera = rig.camera;
   query.max_points = most;
   query.seed = 1;

@@ -107,7 +107,7 @@ void DrawWindow(const std::string& path, const std::string& title, const Keyfram
   const std::size_t n = window.node.size();
   std::vector<SE3> cameras;
   for (const node_state_t& node : window.node)
-    cameras.push_back(StateOf(node).T_world_body * rig.T_body_camera);
+    cameras.push_back(StateOf(node).T_map_body * rig.T_body_camera);
 
   std::vector<Eigen::Vector2d> in_view;
   for (const SE3& c : cameras)
@@ -129,7 +129,7 @@ void DrawWindow(const std::string& path, const std::string& title, const Keyfram
   for (std::size_t k = 0; k < n; ++k) {
     RecordedKeyframe keyframe;
     if (!log.Read(window.node[k].keyframe_seq, &keyframe)) continue;
-    const SE3 pose = StateOf(window.node[k]).T_world_body;
+    const SE3 pose = StateOf(window.node[k]).T_map_body;
     const cv::Mat picture =
         SurfaceWithPoints(keyframe, rig, VisibleFrom(map, rig, pose, 2500), pose, {40, 40, 230},
                           static_cast<double>(kThumbnail) / keyframe.width);

@@ -19,9 +19,9 @@ class PoseSpline {
   static constexpr int kOrder = kDegree + 1;
 
   struct Sample {
-    SE3 pose;                      // T_world_body
-    Eigen::Vector3d velocity;      // of the body's origin, world frame, m/s
-    Eigen::Vector3d acceleration;  // world frame, m/s^2
+    SE3 pose;                      // T_map_body
+    Eigen::Vector3d velocity;      // of the body's origin, map frame, m/s
+    Eigen::Vector3d acceleration;  // map frame, m/s^2
     Eigen::Vector3d rate;          // angular rate, body frame, rad/s
   };
 

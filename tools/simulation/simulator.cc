@@ -8,11 +8,11 @@
 #include <stdexcept>
 
 #include "common/config/rig_file.h"
+#include "tools/formats/vector/event_file.h"
 #include "tools/simulation/preview.h"
 #include "tools/simulation/rgbd_views.h"
 #include "tools/simulation/room.h"
 #include "tools/simulation/sequence_files.h"
-#include "tools/vector/event_file.h"
 
 namespace evit {
 namespace {

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "tools/formats/vector/event_file.h"
 #include "tools/simulation/room.h"
-#include "tools/vector/event_file.h"
 
 namespace evit {
 namespace {

@@ -35,7 +35,7 @@ double HandHeldScore(const Trajectory& poses, const SE3& left, const SE3& right)
   return (up - roll) / n - (height / n < 0.5 || height / n > 2.5 ? 1 : 0);
 }
 
-// Makes T_world_body, z up, of whatever the file holds.
+// Makes T_map_body, z up, of whatever the file holds.
 std::string ToBody(TrajectoryFrame frame, const Rig& rig, Trajectory* poses) {
   const double body = HandHeldScore(*poses, SE3(), rig.T_body_camera);
   const double marker = HandHeldScore(*poses, ZUpFromYUp(), rig.T_marker_body * rig.T_body_camera);

@@ -13,7 +13,7 @@ namespace evit {
 /// What the poses of a trajectory file are.
 enum class TrajectoryFrame {
   kAuto,
-  kBody,       // T_world_body, world z up
+  kBody,       // T_map_body, world z up
   kMarkerYUp,  // motion-capture marker body, world y up (VECtor's raw OptiTrack poses)
 };
 
@@ -30,7 +30,7 @@ struct TrajectorySettings {
 };
 
 struct Motion {
-  PoseSpline spline;                      // T_world_body
+  PoseSpline spline;                      // T_map_body
   Utime begin = 0, end = 0;               // the part to simulate, within the spline
   std::string name;                       // of the sequence: the file's stem, or the builtin's
   bool at_desk = false;                   // placed before the room's desk, not in its middle

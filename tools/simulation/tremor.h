@@ -14,7 +14,7 @@ struct Tremor {
   double deg = 0;  // the same of the rotation, degrees
 };
 
-/// The motion with a tremor on it: T_world_body(t) * tremor(t), as a spline whose knots are close enough for
+/// The motion with a tremor on it: T_map_body(t) * tremor(t), as a spline whose knots are close enough for
 /// it. Each of the six axes is a sum of three sines within 15 % of hz, with seeded phases, frequencies and
 /// shares. `knot_spacing`: s, of the motion without tremor.
 PoseSpline AddTremor(const PoseSpline& motion, const Tremor& tremor, double knot_spacing, std::uint64_t seed);

@@ -1,0 +1,73 @@
+#include "tools/formats/bag/bag_files.h"
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+namespace evit {
+namespace {
+
+std::string Join(const std::vector<std::string>& words, const char* gap) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : gap) + word;
+  return text;
+}
+
+}  // namespace
+
+BagFiles::BagFiles(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": there is no such file");
+    try {
+      bags_.push_back(std::make_unique<rosbag::Bag>(path, rosbag::bagmode::Read));
+      rosbag::View view(*bags_.back());
+      for (const rosbag::ConnectionInfo* c : view.getConnections()) types_[c->topic] = c->datatype;
+    } catch (const rosbag::BagUnindexedException&) {
+      throw std::runtime_error(path +
+                               ": has no index: it was cut off; copy it again, or run rosbag reindex on it");
+    } catch (const std::exception& error) {
+      throw std::runtime_error(path + ": is no whole ROS 1 bag (" + error.what() + "); copy it again");
+    }
+  }
+}
+
+BagFiles::~BagFiles() = default;
+
+std::string BagFiles::Names() const {
+  std::vector<std::string> names;
+  for (const auto& bag : bags_) names.push_back(bag->getFileName());
+  return Join(names, ", ");
+}
+
+std::string BagFiles::Topics() const {
+  std::vector<std::string> topics;
+  for (const auto& [topic, type] : types_) topics.push_back(topic + " (" + type + ")");
+  return topics.empty() ? "none" : Join(topics, ", ");
+}
+
+std::string BagFiles::FindTopic(const std::vector<std::string>& types, const std::string& wanted,
+                                const std::string& option) const {
+  const auto fits = [&](const std::string& type) {
+    return std::find(types.begin(), types.end(), type) != types.end();
+  };
+  if (!wanted.empty()) {
+    const auto found = types_.find(wanted);
+    if (found != types_.end() && fits(found->second)) return wanted;
+    throw std::runtime_error(Names() + ": " + option + " " + wanted + ": there is no such topic of type " +
+                             Join(types, " or ") + "; topics: " + Topics());
+  }
+  std::vector<std::string> candidates;
+  for (const auto& [topic, type] : types_) {
+    if (fits(type)) candidates.push_back(topic);
+  }
+  if (candidates.size() > 1) {
+    throw std::runtime_error(Names() + ": several topics are of type " + Join(types, " or ") +
+                             "; choose one with " + option + ": " + Join(candidates, ", "));
+  }
+  return candidates.empty() ? "" : candidates.front();
+}
+
+}  // namespace evit

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "common/evaluation/trajectory.h"
+#include "common/events/event.h"
+#include "common/imu/imu_sample.h"
+#include "tools/formats/import/drop_counts.h"
+
+namespace evit {
+
+/// Serialized ROS 1 messages, decoded without ROS's generated code. ROS's nanoseconds are rounded to
+/// microseconds. Lengths are checked before anything is reserved; all throw std::runtime_error saying which
+/// field is wrong.
+
+inline constexpr const char* kEventTypes[] = {"dvs_msgs/EventArray", "prophesee_event_msgs/EventArray"};
+inline constexpr const char* kImuTypes[] = {"sensor_msgs/Imu"};
+inline constexpr const char* kTruthTypes[] = {"geometry_msgs/PoseStamped"};
+
+/// Appends the events that pass the filter.
+void DecodeEventArray(const std::uint8_t* data, std::size_t size, EventFilter* filter, EventArray* events);
+
+ImuSample DecodeImu(const std::uint8_t* data, std::size_t size);
+
+/// The quaternion as it stands, of whatever length.
+StampedPose DecodePoseStamped(const std::uint8_t* data, std::size_t size);
+
+}  // namespace evit

@@ -1,0 +1,129 @@
+#include "tools/formats/import/import_log.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+
+#include "common/evaluation/decimal_time.h"
+#include "tools/formats/import/stream_writer.h"
+
+namespace evit {
+namespace {
+
+// A longer hole is a damaged time stamp, or two clocks: its silence would fill the log with empty packets.
+constexpr Utime kMaxHole = 600 * kMicrosPerSecond;
+
+// Removes a half-written file unless everything went well.
+struct PartFile {
+  std::string path;
+  bool kept = false;
+  ~PartFile() {
+    if (!kept) std::remove(path.c_str());
+  }
+};
+
+template <typename List>
+void Clip(List* list, Utime begin, Utime end) {
+  list->erase(
+      std::remove_if(list->begin(), list->end(), [&](const auto& s) { return s.t < begin || s.t > end; }),
+      list->end());
+}
+
+void CheckHole(const std::string& name, Utime before, Utime after) {
+  if (after - before <= kMaxHole) return;
+  throw std::runtime_error(name + ": the time jumps from " + DecimalSeconds(before) + " s to " +
+                           DecimalSeconds(after) +
+                           " s: a damaged time stamp, or several recordings; import each alone");
+}
+
+void CheckImu(const ImportStreams& streams, Utime first_event) {
+  if (streams.imu.size() < 2) throw std::runtime_error(streams.imu_name + ": holds no IMU samples");
+  for (std::size_t k = 1; k < streams.imu.size(); ++k)
+    CheckHole(streams.imu_name, streams.imu[k - 1].t, streams.imu[k].t);
+  if (streams.imu.back().t < first_event) {
+    throw std::runtime_error(
+        streams.imu_name +
+        ": ends before the first event: the files are not of one sequence, or not of one clock");
+  }
+}
+
+// Truth of an earlier import must not stay beside a log that has none.
+void PutInPlace(PartFile* part, const std::string& out, const Trajectory& truth) {
+  const std::string truth_out = out + ".truth.tum";
+  if (truth.empty()) {
+    std::remove(truth_out.c_str());
+  } else {
+    WriteTum(truth_out, truth);
+  }
+  if (std::rename(part->path.c_str(), out.c_str()) != 0) {
+    std::remove(truth_out.c_str());
+    throw std::runtime_error(out + ": cannot be written");
+  }
+  part->kept = true;
+}
+
+}  // namespace
+
+ImportSummary ImportLog(const ImportTarget& target, EventSource* events, ImportStreams streams,
+                        const std::function<void(double)>& progress) {
+  EventArray piece;
+  bool more = events->Read(&piece);
+  if (!more) {
+    const std::string dropped = DropText(events->dropped(), "events");
+    throw std::runtime_error(events->name() + ": holds no event" + (dropped.empty() ? "" : "; " + dropped));
+  }
+  const Utime first = piece.t.front();
+  CheckImu(streams, first);
+  Utime begin = std::min(first, streams.imu.front().t), end = std::numeric_limits<Utime>::max();
+  if (target.seconds) {
+    begin = first + static_cast<Utime>(target.seconds->first * 1e6);
+    end = first + static_cast<Utime>(target.seconds->second * 1e6);
+  }
+  Clip(&streams.imu, begin, end);
+  Clip(&streams.truth, begin, end);
+  if (streams.imu.size() < 2)
+    throw std::runtime_error("the part asked for by --seconds holds no IMU samples");
+
+  PartFile part{target.out + ".part"};
+  ImportSummary summary;
+  Utime last = first;
+  {
+    StreamWriter writer(part.path, begin, streams.imu, streams.truth);
+    for (; more; more = more && events->Read(&piece)) {
+      for (std::size_t k = 0; k < piece.size(); ++k) {
+        const Utime t = piece.t[k];
+        CheckHole(events->name(), last, t);
+        if (t > end) {
+          more = false;
+          break;
+        }
+        last = t;
+        if (t < begin) continue;
+        writer.AddEvent(t, piece.x[k], piece.y[k], piece.p[k]);
+        ++summary.n_events;
+      }
+      progress(target.seconds ? static_cast<double>(last - begin) / static_cast<double>(end - begin)
+                              : events->share());
+    }
+    if (summary.n_events == 0) throw std::runtime_error("the part asked for by --seconds holds no events");
+    if (streams.imu.front().t > last) {
+      throw std::runtime_error(
+          streams.imu_name +
+          ": begins after the last event: the files are not of one sequence, or not of one clock");
+    }
+    writer.Close(std::max(last, streams.imu.back().t));
+    summary.n_packets = writer.n_packets();
+  }
+  PutInPlace(&part, target.out, streams.truth);
+  summary.n_imu = static_cast<std::int64_t>(streams.imu.size());
+  summary.n_truth = static_cast<std::int64_t>(streams.truth.size());
+  summary.seconds = ToSeconds(last - begin);
+  summary.dropped_events = events->dropped();
+  summary.dropped_imu = streams.dropped_imu;
+  summary.dropped_truth = streams.dropped_truth;
+  progress(1);
+  return summary;
+}
+
+}  // namespace evit

@@ -1,0 +1,90 @@
+#include "tools/formats/import/stream_writer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/bus/codec.h"
+#include "common/events/wire/event_wire.h"
+
+namespace evit {
+namespace {
+
+constexpr Utime kPacketSpan = 5'000;  // us
+constexpr Utime kSilence = 10'000;    // us without events until an empty packet says so
+
+}  // namespace
+
+StreamWriter::StreamWriter(const std::string& path, std::int64_t epoch, std::vector<ImuSample> imu,
+                           Trajectory truth)
+    : log_(path), epoch_(epoch), imu_(std::move(imu)), truth_(std::move(truth)) {}
+
+template <typename Message>
+void StreamWriter::Write(Utime t, const std::string& channel, const Message& message) {
+  EncodeTo(message, &buffer_);
+  log_.Write(t, channel, buffer_.data(), buffer_.size());
+}
+
+void StreamWriter::WriteOthers(Utime until) {
+  while (true) {
+    const bool has_imu = next_imu_ < imu_.size() && imu_[next_imu_].t <= until;
+    const bool has_truth = next_truth_ < truth_.size() && truth_[next_truth_].t <= until;
+    if (!has_imu && !has_truth) return;
+    if (has_imu && (!has_truth || imu_[next_imu_].t <= truth_[next_truth_].t)) {
+      const ImuSample& s = imu_[next_imu_];
+      imu_batch_t m{};
+      m.utime = s.t;
+      m.seq = static_cast<std::int64_t>(next_imu_++);
+      m.epoch = epoch_;
+      m.n = 1;
+      m.sample_utime = {s.t};
+      m.gyro = {{s.gyro.x(), s.gyro.y(), s.gyro.z()}};
+      m.accel = {{s.accel.x(), s.accel.y(), s.accel.z()}};
+      Write(s.t, channels_.imu, m);
+    } else {
+      const StampedPose& s = truth_[next_truth_];
+      body_pose_t m{};
+      m.utime = s.t;
+      m.seq = static_cast<std::int64_t>(next_truth_++);
+      m.epoch = epoch_;
+      std::copy_n(s.pose.p.data(), 3, m.position);
+      std::copy_n(s.pose.q.coeffs().data(), 4, m.orientation);
+      Write(s.t, channels_.ground_truth, m);
+    }
+  }
+}
+
+void StreamWriter::FlushPacket() {
+  if (packet_.size() == 0) return;
+  known_ = packet_.t.back();
+  WriteOthers(*known_);
+  for (std::size_t begin = 0; begin < packet_.size(); ++n_packets_) {
+    begin = EncodePacket(packet_, begin, epoch_, n_packets_, &buffer_);
+    log_.Write(*known_, channels_.events, buffer_.data(), buffer_.size());
+  }
+  packet_.clear();
+}
+
+void StreamWriter::WriteWatermark(Utime t) {
+  known_ = t;
+  WriteOthers(t);
+  Write(t, channels_.events, EmptyPacket(t, epoch_, n_packets_++));
+}
+
+void StreamWriter::AddEvent(Utime t, std::uint16_t x, std::uint16_t y, std::uint8_t polarity) {
+  if (packet_.size() > 0 && (packet_.size() >= kPacketEvents || t - packet_.t.front() >= kPacketSpan))
+    FlushPacket();
+  if (packet_.size() == 0 && known_) {
+    while (t - *known_ > kSilence) WriteWatermark(*known_ + kSilence);
+  }
+  packet_.push_back(t, x, y, polarity);
+}
+
+void StreamWriter::Close(Utime end) {
+  FlushPacket();
+  while (*known_ + kSilence < end) WriteWatermark(*known_ + kSilence);
+  if (*known_ < end) WriteWatermark(end);
+  WriteOthers(end);
+  log_.Close();
+}
+
+}  // namespace evit

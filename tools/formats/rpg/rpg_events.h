@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "tools/formats/import/event_source.h"
+#include "tools/formats/import/line_reader.h"
+
+namespace evit {
+
+/// RPG's events.txt: `t x y p` (s, pixels, 1 brighter or 0 darker).
+class RpgEvents : public EventSource {
+ public:
+  RpgEvents(const std::string& path, int width, int height);
+
+  bool Read(EventArray* events) override;
+  double share() const override { return lines_.share(); }
+  std::string name() const override { return path_; }
+  DropCounts dropped() const override { return filter_.dropped(); }
+
+ private:
+  std::string path_;
+  LineReader lines_;
+  EventFilter filter_;
+};
+
+}  // namespace evit

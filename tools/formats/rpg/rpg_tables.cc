@@ -1,0 +1,70 @@
+#include "tools/formats/rpg/rpg_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "tools/formats/import/line_reader.h"
+
+namespace evit {
+
+std::vector<ImuSample> ReadRpgImu(const std::string& path, DropCounts* dropped) {
+  LineReader lines(path, "t ax ay az gx gy gz");
+  std::vector<ImuSample> samples;
+  while (lines.Next()) {
+    ImuSample s;
+    const bool finite = lines.Time(&s.t);
+    for (Eigen::Vector3d* v : {&s.accel, &s.gyro}) {
+      for (double& x : *v) x = lines.Number();
+    }
+    lines.End();
+    AppendValid(s, finite && s.accel.allFinite() && s.gyro.allFinite(), &samples, dropped);
+  }
+  return samples;
+}
+
+Trajectory ReadRpgTruth(const std::string& path, DropCounts* dropped) {
+  LineReader lines(path, "t px py pz qx qy qz qw");
+  Trajectory truth;
+  while (lines.Next()) {
+    StampedPose s;
+    const bool finite = lines.Time(&s.t);
+    for (double& x : s.pose.p) x = lines.Number();
+    for (double& x : s.pose.q.coeffs()) x = lines.Number();
+    lines.End();
+    AppendPose(s, finite, &truth, dropped);
+  }
+  return truth;
+}
+
+Camera ReadRpgCamera(const std::string& path, int width, int height) {
+  LineReader lines(path, "fx fy cx cy k1 k2 p1 p2 k3");
+  if (!lines.Next()) throw std::runtime_error(path + ": is empty; fx fy cx cy k1 k2 p1 p2 k3 is wanted");
+  Camera camera;
+  camera.width = width;
+  camera.height = height;
+  for (double* x : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *x = lines.Number();
+  for (double& x : camera.distortion) {
+    x = lines.Number();
+    if (!std::isfinite(x)) lines.Fail("k1 k2 p1 p2 k3: finite numbers are wanted");
+  }
+  lines.End();
+  const auto positive = [](double x) { return std::isfinite(x) && x > 0; };
+  if (!positive(camera.fx) || !positive(camera.fy)) lines.Fail("fx fy: positive numbers are wanted");
+  if (!(camera.cx >= 0 && camera.cx <= width && camera.cy >= 0 && camera.cy <= height)) {
+    lines.Fail("cx cy: the principal point is not in an image of " + std::to_string(width) + "x" +
+               std::to_string(height) + "; give the image's size as --size WxH");
+  }
+  return camera;
+}
+
+double ImuRate(const std::vector<ImuSample>& samples) {
+  std::vector<Utime> gaps;
+  for (std::size_t k = 1; k < samples.size(); ++k) gaps.push_back(samples[k].t - samples[k - 1].t);
+  if (gaps.empty()) return 0;
+  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+  std::nth_element(gaps.begin(), middle, gaps.end());
+  return std::round(1e6 / static_cast<double>(*middle));
+}
+
+}  // namespace evit

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "common/geometry/rig.h"
+#include "tools/formats/import/import_log.h"
+
+namespace evit {
+
+/// A sequence of the VECtor benchmark on disk, to become an LCM log.
+struct SequenceImport : ImportTarget {
+  std::string folder;  // holds NAME1.synced.left_event.hdf5, .imu.txt and, where known, .gt.txt
+  std::string name;    // e.g. "desk_normal"
+  Rig rig;             // T_marker_body turns the marker body's ground truth into the IMU's
+};
+
+/// As ImportLog. Data that is out of order, not finite or outside the sensor is an error: VECtor's files are
+/// processed, they hold none. An unknown name lists the sequences found.
+ImportSummary ImportSequence(const SequenceImport& job, const std::function<void(double)>& progress);
+
+}  // namespace evit
