@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/config/pipeline_options.h"
 #include "common/config/rig.pb.h"
 #include "common/config/tracker.pb.h"
 #include "common/geometry/rig.h"
@@ -24,5 +25,9 @@ std::string LoadRigName(const std::string& path);
 
 /// Reads a tracker file. Throws ConfigError as LoadRig does.
 config::Tracker LoadTracker(const std::string& path);
+
+/// The same as plain options. Throws ConfigError as LoadRig does.
+PipelineOptions LoadOptions(const std::string& path);
+PipelineOptions ToOptions(const config::Tracker& message);
 
 }  // namespace evit

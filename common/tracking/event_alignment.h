@@ -5,19 +5,10 @@
 #include "common/geometry/lane_camera.h"
 #include "common/geometry/se3.h"
 #include "common/tracking/alignment_points.h"
+#include "common/tracking/robust_kernel.h"
 #include "common/tracking/surface_field.h"
 
 namespace evit {
-
-/// Robust kernel rho(s) of a squared, whitened residual s; rho(0) = 0, rho'(0) = 1, concave.
-struct RobustKernel {
-  enum class Kind { kHuber, kCauchy, kGemanMcClure };
-  Kind kind = Kind::kCauchy;
-  double scale = 1;  // in units of the whitened residual
-
-  /// rho and rho' at s.
-  void Evaluate(double s, double* rho, double* slope) const;
-};
 
 /// The event alignment term of one keyframe (paper Eq. (3)): sum over points of rho((T(pi(P)) / sigma)^2)
 /// / 2.

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "common/events/keyframe_options.h"
+#include "common/events/surface_options.h"
+#include "common/photometric/photometric_options.h"
+#include "common/tracking/tracker_options.h"
+
+namespace evit {
+
+/// Everything a settings file says. Each part belongs to the class that uses it; defaults are EVIT's.
+struct PipelineOptions {
+  enum class Method {
+    kEvit,  // the window: events and IMU
+    kEvt,   // the paper's baseline: each frame localised by its events alone, from the previous pose; no IMU
+    kEvpt   // the paper's other baseline: events against brightness changes predicted from a photometric map; no IMU
+  };
+  Method method = Method::kEvit;
+  KeyframeOptions keyframes;
+  SurfaceOptions surface;
+  PointOptions points;
+  WindowOptions window;
+  BootstrapOptions bootstrap;
+  FailureOptions failure;
+  PhotometricOptions photometric;
+};
+
+}  // namespace evit

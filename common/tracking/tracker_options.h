@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/tracking/robust_kernel.h"
+
+namespace evit {
+
+/// Which map points a keyframe is aligned with.
+struct PointOptions {
+  int max_active = 5000;    // points asked of map_server for one view
+  int per_keyframe = 1500;  // random subset of those used by the solver for each keyframe
+  double margin_px = 40;    // how much wider than the image the frustum of the predicted pose is
+  double min_depth_m = 0.1;
+  double max_depth_m = 12;
+  bool occlusion = true;  // leave out points hidden behind nearer ones
+  std::int64_t seed = 1;  // of every random choice
+};
+
+/// The sliding window (paper Sec. III-D), and what its covariance knows beside it.
+struct WindowOptions {
+  enum class FirstNode {
+    kFixed,  // the paper's: the oldest keyframe's whole state stays as it is
+    kPrior   // what has left the window stays as a Gaussian prior on the oldest keyframe (marginalisation)
+  };
+  enum class MotionModel { kPreviousPose, kConstantVelocity, kImu };
+
+  int size = 5;  // keyframes N
+  RobustKernel::Kind kernel = RobustKernel::Kind::kCauchy;
+  FirstNode first_node = FirstNode::kPrior;
+  double image_sigma = 80;   // grey levels: noise of one surface value (docs/method.md argues the figure)
+  double robust_scale = 80;  // grey levels: scale of the kernel
+  int max_iterations = 12;
+  double imu_noise_factor = 2;  // on the calibrated densities: covers integration error and vibration
+  MotionModel motion_model = MotionModel::kImu;  // what predicts the next keyframe's pose
+  double correlated_share = 1.8;  // covariance: keyframes err together, by so much of one keyframe's variance
+  double map_sigma_m = 0.0012;    // covariance: by which the map around the camera may be shifted, per axis
+  double stamp_sigma_us = 400;    // covariance: by which events may be late beyond the rig's time_offset_us
+};
+
+/// When bootstrapping has seen enough, and what it refuses (paper Sec. III-C).
+struct BootstrapOptions {
+  int min_frames = 10;               // localised frames before velocities and biases are solved for
+  double min_displacement_m = 0.02;  // motion of the body, or
+  double min_rotation_deg = 2;       // of the body, or
+  double max_duration_s = 2;         // bootstrap anyway after this long
+  double max_gyro_bias = 0.1;        // rad/s: a larger solution is refused (map not upright, wrong rig)
+  double max_accel_bias = 0.6;       // m/s^2
+  double min_contrast = 0.06;  // 0..1: how much better points must lie on a frame's events than beside them
+};
+
+/// When tracking has failed.
+struct FailureOptions {
+  double min_contrast = 0.03;  // 0..1: as in bootstrapping; lower, since the IMU vouches for the pose too
+  double max_coast_s = 2;      // without events that fit: the IMU carries the pose, with growing uncertainty
+  double max_position_sigma_m = 0.15;  // beyond it, or max_coast_s, the tracker says LOST
+  double max_speed = 6;                // m/s
+  double max_gyro_bias = 0.2;          // rad/s
+  double max_accel_bias = 1.5;         // m/s^2
+  double max_imu_gap_ms = 200;         // a longer hole in the IMU stream starts the window again
+};
+
+}  // namespace evit
