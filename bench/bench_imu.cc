@@ -3,7 +3,7 @@
 
 #include "bench/counters.h"
 #include "common/imu/preintegration.h"
-#include "common/imu/test_motion.h"
+#include "tests/helpers/handheld_motion.h"
 
 namespace evit::bench {
 namespace {

@@ -2,7 +2,7 @@
 #include <random>
 
 #include "bench/counters.h"
-#include "common/map/test_clouds.h"
+#include "tests/helpers/clouds.h"
 
 namespace evit::bench {
 namespace {

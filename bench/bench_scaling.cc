@@ -7,7 +7,7 @@
 #include "common/config/config.h"
 #include "common/events/keyframe_builder.h"
 #include "common/events/wire/event_wire.h"
-#include "common/map/test_clouds.h"
+#include "tests/helpers/clouds.h"
 
 namespace evit::bench {
 namespace {

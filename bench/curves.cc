@@ -7,7 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-#include "tools/run/canvas.h"
+#include "tools/pictures/chart.h"
 
 namespace evit::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "tools/run/canvas.h"
+#include "tools/pictures/chart.h"
 
 namespace evit::bench {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "common/bus/memory_bus.h"
 #include "procman/sheriff.h"
-#include "procman/test_programs.h"
+#include "tests/helpers/programs.h"
 
 namespace evit {
 namespace {

@@ -5,7 +5,7 @@
 #include <sys/wait.h>
 
 #include "procman/supervisor.h"
-#include "procman/test_programs.h"
+#include "tests/helpers/programs.h"
 
 namespace evit {
 namespace {

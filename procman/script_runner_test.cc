@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "procman/test_programs.h"
+#include "tests/helpers/programs.h"
 
 namespace evit {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "common/bus/sample_messages.h"
+#include "tests/helpers/sample_messages.h"
 
 namespace evit {
 namespace {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include "common/bus/sample_messages.h"
+#include "tests/helpers/sample_messages.h"
 
 namespace evit {
 namespace {

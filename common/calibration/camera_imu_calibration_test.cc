@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/calibration/test_recording.h"
+#include "tests/helpers/calibration_recording.h"
 
 namespace evit {
 namespace {

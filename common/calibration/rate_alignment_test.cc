@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/calibration/test_recording.h"
+#include "tests/helpers/calibration_recording.h"
 
 namespace evit {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "common/config/tracker.pb.h"
 #include "common/events/keyframe_builder.h"
-#include "common/events/test_streams.h"
+#include "tests/helpers/event_streams.h"
 
 namespace evit {
 namespace {

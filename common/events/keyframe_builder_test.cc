@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "common/events/test_streams.h"
+#include "tests/helpers/event_streams.h"
 
 namespace evit {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/events/test_streams.h"
+#include "tests/helpers/event_streams.h"
 
 namespace evit {
 namespace {

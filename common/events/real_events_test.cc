@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "common/events/keyframe_builder.h"
-#include "common/events/test_streams.h"
+#include "tests/helpers/event_streams.h"
 
 namespace evit {
 namespace {

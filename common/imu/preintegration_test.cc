@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "common/imu/test_motion.h"
+#include "tests/helpers/handheld_motion.h"
 
 namespace evit {
 namespace {

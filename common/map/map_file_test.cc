@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "common/map/test_files.h"
+#include "tests/helpers/map_files.h"
 
 namespace evit {
 namespace {

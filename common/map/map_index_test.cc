@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "common/map/test_clouds.h"
 #include "common/map/visibility.h"
+#include "tests/helpers/clouds.h"
 
 namespace evit {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "common/map/test_clouds.h"
+#include "tests/helpers/clouds.h"
 
 namespace evit {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/map/map_formats.h"
-#include "common/map/test_files.h"
+#include "tests/helpers/map_files.h"
 
 namespace evit {
 namespace {

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "common/map/test_files.h"
+#include "tests/helpers/map_files.h"
 
 namespace evit {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "common/evaluation/trajectory.h"
 #include "common/map/map_file.h"
-#include "common/map/test_clouds.h"
+#include "tests/helpers/clouds.h"
 
 namespace evit {
 namespace {

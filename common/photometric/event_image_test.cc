@@ -6,7 +6,7 @@
 #include <random>
 
 #include "common/photometric/gradient_points.h"
-#include "common/photometric/test_room.h"
+#include "tests/helpers/photometric_room.h"
 
 namespace evit {
 namespace {

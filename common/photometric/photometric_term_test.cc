@@ -5,8 +5,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/photometric/photometric_factor.h"
-#include "common/photometric/test_room.h"
 #include "common/tracking/state.h"
+#include "tests/helpers/photometric_room.h"
 
 namespace evit {
 namespace {

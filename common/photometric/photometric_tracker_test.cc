@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/photometric/test_room.h"
 #include "common/photometric/view_renderer.h"
+#include "tests/helpers/photometric_room.h"
 
 namespace evit {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/photometric/test_room.h"
+#include "tests/helpers/photometric_room.h"
 
 namespace evit {
 namespace {

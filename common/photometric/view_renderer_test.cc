@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "common/photometric/test_room.h"
+#include "tests/helpers/photometric_room.h"
 
 namespace evit {
 namespace {

@@ -8,11 +8,11 @@
 #include <thread>
 
 #include "common/bus/memory_bus.h"
-#include "common/bus/test_messages.h"
 #include "common/service/credit_sender.h"
 #include "common/service/runner.h"
 #include "common/service/sequence_counter.h"
 #include "common/service/status_reporter.h"
+#include "tests/helpers/bus_messages.h"
 
 namespace evit {
 namespace {

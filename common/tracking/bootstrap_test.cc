@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/tracking/test_bench.h"
+#include "tests/helpers/tracking_bench.h"
 
 namespace evit {
 namespace {

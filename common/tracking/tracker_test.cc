@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/tracking/test_bench.h"
+#include "tests/helpers/tracking_bench.h"
 
 namespace evit {
 namespace {

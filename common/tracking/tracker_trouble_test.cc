@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "common/tracking/test_bench.h"
+#include "tests/helpers/tracking_bench.h"
 
 namespace evit {
 namespace {

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "common/bus/lcm_bus.h"
-#include "services/frame_builder/test_pipeline.h"
+#include "tests/helpers/frame_builder_peers.h"
 
 namespace evit {
 namespace {

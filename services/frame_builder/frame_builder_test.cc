@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "common/bus/memory_bus.h"
-#include "services/frame_builder/test_pipeline.h"
+#include "tests/helpers/frame_builder_peers.h"
 
 namespace evit {
 namespace {

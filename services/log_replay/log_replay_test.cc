@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "services/log_replay/test_log_replay.h"
+#include "tests/helpers/log_replay_fixture.h"
 
 namespace evit {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "services/log_replay/pacer.h"
-#include "services/log_replay/test_recording.h"
+#include "tests/helpers/replay_recording.h"
 
 namespace evit {
 namespace {

@@ -5,9 +5,9 @@
 #include "common/bus/lcm_bus.h"
 #include "common/map/denoise.h"
 #include "common/map/map_file.h"
-#include "common/map/test_files.h"
 #include "common/service/child_process.h"
-#include "services/map_server/test_asker.h"
+#include "tests/helpers/map_asker.h"
+#include "tests/helpers/map_files.h"
 
 namespace evit {
 namespace {

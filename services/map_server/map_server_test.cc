@@ -5,7 +5,7 @@
 #include <random>
 
 #include "common/bus/memory_bus.h"
-#include "services/map_server/test_asker.h"
+#include "tests/helpers/map_asker.h"
 
 namespace evit {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "common/bus/codec.h"
 #include "common/bus/memory_bus.h"
-#include "common/photometric/test_room.h"
 #include "common/photometric/wire/view_wire.h"
 #include "services/map_server/map_server.h"
+#include "tests/helpers/photometric_room.h"
 
 namespace evit {
 namespace {

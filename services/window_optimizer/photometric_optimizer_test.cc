@@ -3,10 +3,10 @@
 #include "services/window_optimizer/photometric_optimizer.h"
 
 #include "common/config/config.h"
-#include "common/photometric/test_room.h"
 #include "common/photometric/view_renderer.h"
 #include "common/photometric/wire/view_wire.h"
-#include "services/window_optimizer/test_peer.h"
+#include "tests/helpers/optimizer_peer.h"
+#include "tests/helpers/photometric_room.h"
 
 namespace evit {
 namespace {

@@ -1,5 +1,5 @@
 // The service after a restart: what it had is told by its checkpoint, what came since is sent again.
-#include "services/window_optimizer/test_optimizer.h"
+#include "tests/helpers/window_optimizer_fixture.h"
 
 namespace evit::test {
 namespace {

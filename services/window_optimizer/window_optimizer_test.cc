@@ -1,6 +1,6 @@
 // The service alone: recorded-like keyframes, map answers and IMU in, window states, modes and poses out. The
 // real bus is in tests/.
-#include "services/window_optimizer/test_optimizer.h"
+#include "tests/helpers/window_optimizer_fixture.h"
 
 namespace evit::test {
 namespace {

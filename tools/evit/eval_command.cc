@@ -7,7 +7,7 @@
 #include "common/evaluation/consistency.h"
 #include "common/evaluation/trajectory_error.h"
 #include "tools/evit/commands.h"
-#include "tools/run/consistency_plot.h"
+#include "tools/pictures/consistency_plot.h"
 
 namespace evit {
 namespace {

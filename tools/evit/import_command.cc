@@ -3,7 +3,7 @@
 #include "tools/evit/commands.h"
 #include "tools/evit/import_options.h"
 #include "tools/evit/options.h"
-#include "tools/progress.h"
+#include "tools/terminal/progress_bar.h"
 
 namespace evit {
 namespace {

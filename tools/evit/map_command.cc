@@ -10,7 +10,7 @@
 #include "common/map/map_file.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
-#include "tools/map/top_view.h"
+#include "tools/pictures/top_view.h"
 
 namespace evit {
 namespace {

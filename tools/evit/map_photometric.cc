@@ -7,7 +7,7 @@
 
 #include "tools/evit/commands.h"
 #include "tools/formats/rgbd/rgbd_folder.h"
-#include "tools/progress.h"
+#include "tools/terminal/progress_bar.h"
 
 namespace evit {
 namespace {

@@ -6,10 +6,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/bus/codec.h"
-#include "common/bus/sample_messages.h"
 #include "common/config/config.h"
+#include "tests/helpers/paper.h"
+#include "tests/helpers/sample_messages.h"
 #include "tools/paper/motion_model_figure.h"
-#include "tools/paper/test_paper.h"
 #include "tools/paper/trajectory_figure.h"
 #include "tools/paper/window_figure.h"
 

@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-#include "tools/paper/test_paper.h"
+#include "tests/helpers/paper.h"
 #include "tools/paper/text_files.h"
 
 namespace evit {

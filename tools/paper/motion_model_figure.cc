@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "tools/paper/surface_picture.h"
-#include "tools/run/canvas.h"
+#include "tools/pictures/chart.h"
 
 namespace evit {
 namespace {

@@ -9,7 +9,7 @@
 #include "tools/paper/job.h"
 #include "tools/paper/table.h"
 #include "tools/paper/text_files.h"
-#include "tools/progress.h"
+#include "tools/terminal/progress_bar.h"
 
 namespace evit {
 

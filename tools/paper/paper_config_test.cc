@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/config/config.h"
-#include "tools/paper/test_paper.h"
+#include "tests/helpers/paper.h"
 #include "tools/paper/text_files.h"
 
 namespace evit {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "tests/helpers/paper.h"
 #include "tools/paper/index.h"
 #include "tools/paper/selection.h"
-#include "tools/paper/test_paper.h"
 
 namespace evit {
 namespace {

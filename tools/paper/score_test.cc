@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/helpers/paper.h"
 #include "tools/paper/jerk.h"
-#include "tools/paper/test_paper.h"
 #include "tools/run/report_writer.h"
 
 namespace evit {

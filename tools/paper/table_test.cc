@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/helpers/paper.h"
 #include "tools/paper/summary.h"
-#include "tools/paper/test_paper.h"
 #include "tools/paper/text_files.h"
 
 namespace evit {

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "tools/run/canvas.h"
+#include "tools/pictures/chart.h"
 
 namespace evit {
 namespace {

@@ -6,9 +6,9 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "tools/map/top_view.h"
 #include "tools/paper/surface_picture.h"
-#include "tools/run/canvas.h"
+#include "tools/pictures/chart.h"
+#include "tools/pictures/top_view.h"
 
 namespace evit {
 namespace {

@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "common/bus/memory_bus.h"
-#include "common/bus/sample_messages.h"
-#include "common/bus/test_messages.h"
+#include "tests/helpers/bus_messages.h"
+#include "tests/helpers/sample_messages.h"
 
 namespace evit {
 namespace {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "procman/proc_usage.h"
-#include "tools/run/canvas.h"
+#include "tools/pictures/chart.h"
 
 namespace evit {
 

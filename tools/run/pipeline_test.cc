@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/bus/memory_bus.h"
-#include "procman/test_programs.h"
+#include "tests/helpers/programs.h"
 
 namespace evit {
 namespace {

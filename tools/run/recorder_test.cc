@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/bus/memory_bus.h"
-#include "common/bus/test_messages.h"
+#include "tests/helpers/bus_messages.h"
 
 namespace evit {
 namespace {

@@ -13,7 +13,6 @@
 #include "common/evaluation/trajectory_error.h"
 #include "common/service/runner.h"
 #include "common/service/stop_signals.h"
-#include "tools/progress.h"
 #include "tools/run/bus_log.h"
 #include "tools/run/latency.h"
 #include "tools/run/local_network.h"
@@ -24,6 +23,7 @@
 #include "tools/run/remote.h"
 #include "tools/run/run_inputs.h"
 #include "tools/run/run_results.h"
+#include "tools/terminal/progress_bar.h"
 
 namespace evit {
 namespace {

@@ -8,10 +8,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/bus/log_file.h"
-#include "common/bus/sample_messages.h"
 #include "common/map/map_file.h"
-#include "tools/run/consistency_plot.h"
-#include "tools/run/plot.h"
+#include "tests/helpers/sample_messages.h"
+#include "tools/pictures/consistency_plot.h"
+#include "tools/pictures/run_plot.h"
 #include "tools/run/report_writer.h"
 #include "tools/run/run_inputs.h"
 

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "tools/run/consistency_plot.h"
-#include "tools/run/plot.h"
+#include "tools/pictures/consistency_plot.h"
+#include "tools/pictures/run_plot.h"
 #include "tools/run/report_writer.h"
 
 namespace evit {

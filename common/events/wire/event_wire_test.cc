@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "common/bus/codec.h"
-#include "common/events/test_streams.h"
+#include "tests/helpers/event_streams.h"
 
 namespace evit {
 namespace {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/helpers/ros_bags.h"
 #include "tools/formats/bag/ros_messages.h"
-#include "tools/formats/bag/test_bags.h"
 
 namespace evit {
 namespace {

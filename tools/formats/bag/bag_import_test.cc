@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <random>
 
-#include "tools/formats/bag/test_bags.h"
+#include "tests/helpers/ros_bags.h"
 #include "tools/formats/import/imported_log.h"
 
 namespace evit {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tools/formats/bag/test_bags.h"
+#include "tests/helpers/ros_bags.h"
 
 namespace evit {
 namespace {

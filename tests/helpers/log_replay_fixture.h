@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "common/bus/memory_bus.h"
-#include "common/bus/test_messages.h"
 #include "common/service/credit_sender.h"
 #include "services/log_replay/log_replay.h"
-#include "services/log_replay/test_recording.h"
+#include "tests/helpers/bus_messages.h"
+#include "tests/helpers/replay_recording.h"
 
 namespace evit {
 

@@ -1,9 +1,9 @@
-#include "tools/run/plot.h"
+#include "tools/pictures/run_plot.h"
 
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-#include "tools/run/canvas.h"
+#include "tools/pictures/chart.h"
 
 namespace evit {
 namespace {

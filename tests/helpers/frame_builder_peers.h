@@ -9,9 +9,9 @@
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
-#include "common/bus/test_messages.h"
-#include "common/events/test_streams.h"
 #include "common/events/wire/event_wire.h"
+#include "tests/helpers/bus_messages.h"
+#include "tests/helpers/event_streams.h"
 
 /// What stands around frame_builder in a pipeline, for its tests.
 namespace evit::test {

@@ -8,7 +8,7 @@
 
 #include "common/bus/channels.h"
 #include "common/bus/memory_bus.h"
-#include "common/bus/test_messages.h"
+#include "tests/helpers/bus_messages.h"
 
 namespace evit::test {
 

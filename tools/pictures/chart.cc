@@ -1,4 +1,4 @@
-#include "tools/run/canvas.h"
+#include "tools/pictures/chart.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "tools/run/consistency_plot.h"
+#include "tools/pictures/consistency_plot.h"
 
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-#include "tools/run/canvas.h"
+#include "tools/pictures/chart.h"
 
 namespace evit {
 namespace {

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "common/calibration/camera_imu_batch.h"
-#include "common/imu/test_motion.h"
+#include "tests/helpers/handheld_motion.h"
 
 /// A synthetic recording: a rig in motion, its IMU's samples and its camera's poses in a map.
 namespace evit::test {

@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "common/map/test_files.h"
+#include "tests/helpers/map_files.h"
 
 namespace evit {
 namespace {

@@ -9,8 +9,8 @@
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
 #include "common/bus/codec.h"
-#include "common/map/test_clouds.h"
 #include "common/map/visibility.h"
+#include "tests/helpers/clouds.h"
 
 namespace evit::test {
 

@@ -11,8 +11,8 @@
 
 #include "common/config/config.h"
 #include "common/tracking/synthetic_scene.h"
-#include "services/window_optimizer/test_peer.h"
 #include "services/window_optimizer/window_optimizer.h"
+#include "tests/helpers/optimizer_peer.h"
 
 namespace evit::test {
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "tools/paper/test_paper.h"
+#include "tests/helpers/paper.h"
 #include "tools/paper/text_files.h"
 
 namespace evit {

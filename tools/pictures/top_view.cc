@@ -1,4 +1,4 @@
-#include "tools/map/top_view.h"
+#include "tools/pictures/top_view.h"
 
 #include <algorithm>
 #include <cmath>
