@@ -9,7 +9,7 @@
 #include <random>
 
 #include "tests/helpers/ros_bags.h"
-#include "tools/formats/import/imported_log.h"
+#include "tests/helpers/imported_log.h"
 
 namespace evit {
 namespace {

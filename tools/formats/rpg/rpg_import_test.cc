@@ -11,7 +11,7 @@
 
 #include "common/config/config.h"
 #include "common/evaluation/decimal_time.h"
-#include "tools/formats/import/imported_log.h"
+#include "tests/helpers/imported_log.h"
 
 namespace evit {
 namespace {
