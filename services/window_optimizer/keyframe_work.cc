@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/window_optimizer/merge_imu.h"
 #include "services/window_optimizer/messages.h"
 #include "services/window_optimizer/window_optimizer.h"
 
@@ -48,7 +49,7 @@ void WindowOptimizer::ProcessQueue() {
 void WindowOptimizer::DropSuperseded() {
   while (!settings_.lossless && tracker_.mode() == TrackerMode::kTracking && queue_.size() > 1 &&
          queue_.front().message.high_rate != 0) {
-    Absorb(queue_.front().message, &queue_[1].message);
+    MergeImu(queue_.front().message, &queue_[1].message);
     queue_.pop_front();
     ++status_.Counter("KEYFRAME.superseded");
   }

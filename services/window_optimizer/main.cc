@@ -1,25 +1,11 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <stdexcept>
 
 #include "common/config/config.h"
+#include "common/geometry/pose_text.h"
 #include "services/window_optimizer/photometric_optimizer.h"
 #include "services/window_optimizer/window_optimizer.h"
 
 namespace {
-
-evit::SE3 ParsePose(const std::string& text) {
-  double v[7];
-  char rest = 0;
-  const int n = std::sscanf(text.c_str(), " %lf %lf %lf %lf %lf %lf %lf %c", v, v + 1, v + 2, v + 3, v + 4,
-                            v + 5, v + 6, &rest);
-  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
-  if (n != 7 || !(std::abs(q.norm() - 1) < 1e-2)) {
-    throw std::runtime_error("--initial-pose \"" + text +
-                             "\": seven numbers are wanted, x y z (m) and a unit quaternion qx qy qz qw");
-  }
-  return {q.normalized(), {v[0], v[1], v[2]}};
-}
 
 int Main(int argc, char** argv) {
   CLI::App app{"Tracks the body's 6-DoF pose in a known map from keyframes and IMU (LCM service)."};
@@ -39,7 +25,8 @@ int Main(int argc, char** argv) {
     return app.exit(error);
   }
   const evit::WindowOptimizer::Settings settings{evit::LoadRig(rig), evit::LoadTracker(config),
-                                                 ParsePose(pose), options.lossless, checkpoint};
+                                                 evit::ParsePose("--initial-pose", pose), options.lossless,
+                                                 checkpoint};
   const auto bus = evit::OpenServiceBus(options);
   if (settings.tracker.method() == evit::config::Tracker::EVPT) {
     evit::PhotometricOptimizer service(

@@ -16,10 +16,6 @@ namespace evit {
 /// counts.
 KeyframeInput FromMessage(const keyframe_t& message);
 
-/// Makes `after` reach back over `before`, the keyframe before it, which is dropped: its IMU samples and its
-/// number of events are added. Without effect where the two do not follow each other.
-void Absorb(const keyframe_t& before, keyframe_t* after);
-
 map_query_t ToMessage(const VisibilityQuery& query);
 
 /// Points of an answer, map frame.

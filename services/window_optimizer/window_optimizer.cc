@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/bus/codec.h"
+#include "services/window_optimizer/merge_imu.h"
 #include "services/window_optimizer/messages.h"
 
 namespace evit {
@@ -148,7 +149,7 @@ void WindowOptimizer::Queue(keyframe_t message) {
       !queue_.empty() && (queue_.front().message.high_rate != 0 || queue_.front().message.seq <= caught_up_);
   const std::size_t longest = patient ? kMaxBootstrapQueue : kMaxQueue;
   while (!settings_.lossless && queue_.size() >= longest) {
-    Absorb(queue_.front().message, queue_.size() > 1 ? &queue_[1].message : &message);
+    MergeImu(queue_.front().message, queue_.size() > 1 ? &queue_[1].message : &message);
     queue_.pop_front();
     ++status_.Counter("KEYFRAME.dropped");
   }

@@ -6,6 +6,7 @@
 
 #include "common/config/config.h"
 #include "common/config/rig_file.h"
+#include "common/geometry/pose_text.h"
 #include "tools/calibration/calibration_report.h"
 #include "tools/calibration/recorded_motion.h"
 #include "tools/evit/commands.h"

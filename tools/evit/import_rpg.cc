@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "common/geometry/pose_text.h"
 #include "tools/evit/import_options.h"
 #include "tools/evit/options.h"
 #include "tools/formats/rpg/rpg_import.h"

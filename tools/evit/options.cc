@@ -1,7 +1,6 @@
 #include "tools/evit/options.h"
 
 #include <Eigen/LU>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -31,18 +30,6 @@ SE3 ParseTransform(const std::string& option, const std::string& text) {
     throw std::runtime_error(option + ": the upper left 3x3 is not a rotation");
   }
   return SE3(Eigen::Matrix4d(m));
-}
-
-SE3 ParsePose(const std::string& option, const std::string& text) {
-  double v[7];
-  char rest = 0;
-  const int n = std::sscanf(text.c_str(), " %lf %lf %lf %lf %lf %lf %lf %c", v, v + 1, v + 2, v + 3, v + 4,
-                            v + 5, v + 6, &rest);
-  if (n != 7 || !(std::abs(Eigen::Quaterniond(v[6], v[3], v[4], v[5]).norm() - 1) < 1e-2)) {
-    throw std::runtime_error(option + " \"" + text +
-                             "\": seven numbers are wanted, x y z (m) and a unit quaternion qx qy qz qw");
-  }
-  return {Eigen::Quaterniond(v[6], v[3], v[4], v[5]).normalized(), {v[0], v[1], v[2]}};
 }
 
 std::string CommandLineOfThis() {

@@ -14,9 +14,6 @@ std::pair<double, double> ParseSeconds(const std::string& text);
 /// 16 numbers, row-major 4x4, a rigid transformation.
 SE3 ParseTransform(const std::string& option, const std::string& text);
 
-/// "x y z qx qy qz qw": m and a unit quaternion.
-SE3 ParsePose(const std::string& option, const std::string& text);
-
 /// This process's command line, as it could be typed again.
 std::string CommandLineOfThis();
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/geometry/pose_text.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
 #include "tools/run/run.h"

@@ -1,4 +1,4 @@
-#include "services/window_optimizer/messages.h"
+#include "services/window_optimizer/merge_imu.h"
 
 #include <gtest/gtest.h>
 
@@ -21,10 +21,10 @@ keyframe_t Keyframe(std::int64_t previous, std::int64_t utime) {
   return k;
 }
 
-TEST(Messages, ADroppedKeyframeLeavesItsImuSamplesToTheNext) {
+TEST(MergeImu, ADroppedKeyframeLeavesItsImuSamplesToTheNext) {
   const keyframe_t before = Keyframe(100'000, 120'000);
   keyframe_t after = Keyframe(120'000, 140'000);
-  Absorb(before, &after);
+  MergeImu(before, &after);
   const keyframe_t whole = Keyframe(100'000, 140'000);
   EXPECT_EQ(after.previous_utime, 100'000);
   EXPECT_EQ(after.n_imu, whole.n_imu);
@@ -34,23 +34,23 @@ TEST(Messages, ADroppedKeyframeLeavesItsImuSamplesToTheNext) {
   EXPECT_EQ(after.n_events, 2000);
 }
 
-TEST(Messages, OnlyNeighboursAreJoined) {
+TEST(MergeImu, OnlyNeighboursAreJoined) {
   const keyframe_t before = Keyframe(100'000, 120'000);
   keyframe_t apart = Keyframe(125'000, 140'000), other_epoch = Keyframe(120'000, 140'000);
   other_epoch.epoch = 8;
   for (keyframe_t* after : {&apart, &other_epoch}) {
     const keyframe_t as_it_was = *after;
-    Absorb(before, after);
+    MergeImu(before, after);
     EXPECT_EQ(after->imu_utime, as_it_was.imu_utime);
     EXPECT_EQ(after->previous_utime, as_it_was.previous_utime);
   }
 }
 
-TEST(Messages, WhatIsPassedOnHasABound) {
+TEST(MergeImu, TheNumberOfSamplesHasABound) {
   keyframe_t all = Keyframe(0, 20'000);
   for (std::int64_t t = 20'000; t < 60'000'000; t += 20'000) {
     keyframe_t next = Keyframe(t, t + 20'000);
-    Absorb(all, &next);
+    MergeImu(all, &next);
     all = std::move(next);
     ASSERT_LE(all.n_imu, 4000);
   }
