@@ -21,13 +21,13 @@ const EventArray& Events() {
   return events;
 }
 
-config::Surface Settings(bool split) {
-  config::Surface s;
-  s.set_kind(config::Surface::SYMMETRIC);
-  s.set_truncation(20);
-  s.set_blur_sigma_px(1);
-  s.set_split_polarity(split);
-  s.set_support_filter(true);
+SurfaceOptions Settings(bool split) {
+  SurfaceOptions s;
+  s.kind = SurfaceOptions::Kind::kSymmetric;
+  s.truncation = 20;
+  s.blur_sigma_px = 1;
+  s.split_polarity = split;
+  s.support_filter = true;
   return s;
 }
 

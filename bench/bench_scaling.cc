@@ -21,7 +21,7 @@ void EventRate(benchmark::State& state) {
     EncodeTo(packet, &packets.back());
   }
   const Rig rig = LoadRig(EVIT_SOURCE_DIR "/config/vector/rig.textproto");
-  const config::Tracker config = LoadTracker(EVIT_SOURCE_DIR "/config/tracker.textproto");
+  const PipelineOptions pipeline = LoadOptions(EVIT_SOURCE_DIR "/config/tracker.textproto");
   TrackerFeedback feedback;
   feedback.mode = TrackerFeedback::Mode::kTracking;
   feedback.image_speed = 300;
@@ -29,7 +29,7 @@ void EventRate(benchmark::State& state) {
   event_packet_t packet;
   double keyframes = 0, seconds = 0;
   for (auto _ : state) {
-    KeyframeBuilder builder(rig, config, false);
+    KeyframeBuilder builder(rig, {pipeline.keyframes, pipeline.surface}, false);
     builder.SetFeedbackFor(-1, feedback);
     ImuSample imu{1'000'000, {0, 0, 0.1}, {0, 0, 9.81}};
     for (const auto& bytes : packets) {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/config/tracker.pb.h"
 #include "common/events/keyframe_builder.h"
 #include "tests/helpers/event_streams.h"
 
@@ -28,11 +27,11 @@ TEST(EventCounter, CountsWithSignLimitsAndIgnores) {
 
 // As the builder cuts them: half of each interval before a keyframe's stamp, half after it.
 TEST(EventCounter, KeyframesCountAroundTheirStamp) {
-  config::Tracker config = test::SmallConfig();
-  config.set_method(config::Tracker::EVPT);
-  config.mutable_surface()->set_hot_pixel_rate_hz(0);
+  KeyframeBuilder::Options options = test::SmallOptions();
+  options.event_counts = true;
+  options.surface.hot_pixel_rate_hz = 0;
   const EventArray all = test::RandomStream(1'000'000, 2'000'000, 60'000, 3);
-  KeyframeBuilder builder(test::SmallRig(), config, true);
+  KeyframeBuilder builder(test::SmallRig(), options, true);
   for (const ImuSample& s : test::ImuStream(1'001'000, 1'990'000)) builder.AddImu(s);
   builder.AddEvents(all, all.t.back());
   builder.Flush();

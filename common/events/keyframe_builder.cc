@@ -26,19 +26,19 @@ class Stopwatch {
 
 }  // namespace
 
-KeyframeBuilder::KeyframeBuilder(const Rig& rig, const config::Tracker& config, bool lossless)
+KeyframeBuilder::KeyframeBuilder(const Rig& rig, const Options& options, bool lossless)
     : rig_(rig),
       lossless_(lossless),
-      photometric_(config.method() == config::Tracker::EVPT),
-      lookahead_(config.surface().kind() == config::Surface::SYMMETRIC
-                     ? std::llround(config.surface().lookahead_ms() * 1e3)
+      photometric_(options.event_counts),
+      lookahead_(options.surface.kind == SurfaceOptions::Kind::kSymmetric
+                     ? std::llround(options.surface.lookahead_ms * 1e3)
                      : 0),
-      truncation_(config.surface().truncation()),
-      policy_(config.keyframes(), config.surface()),
+      truncation_(options.surface.truncation),
+      policy_(options.keyframes, options.surface),
       merger_(rig.camera.width, rig.camera.height, lossless, rig.camera_time_offset, rig.imu_noise),
       surface_(rig.camera.width, rig.camera.height),
-      hot_pixels_(rig.camera.width, rig.camera.height, config.surface().hot_pixel_rate_hz()),
-      renderer_(rig.camera.width, rig.camera.height, config.surface()),
+      hot_pixels_(rig.camera.width, rig.camera.height, options.surface.hot_pixel_rate_hz),
+      renderer_(rig.camera.width, rig.camera.height, options.surface),
       counter_(rig.camera.width, rig.camera.height) {}
 
 void KeyframeBuilder::AddEvents(const EventArray& events, Utime watermark) {

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "common/config/tracker.pb.h"
 #include "common/events/active_event_surface.h"
 #include "common/events/event_counter.h"
 #include "common/events/hot_pixels.h"
@@ -51,7 +50,12 @@ struct Keyframe {
 /// the stamp, and adaptive keyframes whatever the tracker's mode.
 class KeyframeBuilder {
  public:
-  KeyframeBuilder(const Rig& rig, const config::Tracker& config, bool lossless);
+  struct Options {
+    KeyframeOptions keyframes;
+    SurfaceOptions surface;
+    bool event_counts = false;  // EVPT
+  };
+  KeyframeBuilder(const Rig& rig, const Options& options, bool lossless);
 
   /// Sorted events in the camera's clock (the rig's time offset is added here). No event before `watermark`
   /// is still to come: the last event's stamp, or more where that is known (empty packets).

@@ -12,7 +12,7 @@ namespace {
 using test::ImuStream;
 using test::RandomStream;
 using test::Slice;
-using test::SmallConfig;
+using test::SmallOptions;
 using test::SmallRig;
 using Mode = TrackerFeedback::Mode;
 
@@ -35,7 +35,7 @@ TrackerFeedback Script(const Keyframe& k) {
 /// Feeds both streams cut and interleaved at random; feedback comes with a random delay.
 std::vector<Keyframe> BuildAll(const EventArray& events, const std::vector<ImuSample>& imu, unsigned seed,
                                std::size_t max_packet) {
-  KeyframeBuilder builder(SmallRig(), SmallConfig(), true);
+  KeyframeBuilder builder(SmallRig(), SmallOptions(), true);
   std::mt19937 random(seed);
   std::vector<Keyframe> out;
   std::size_t e = 0, m = 0, answered = 0;
@@ -124,7 +124,7 @@ TEST(KeyframeBuilder, IntervalsJoinAndCarryTheirImuSamples) {
 }
 
 TEST(KeyframeBuilder, WaitsForTheFeedbackOfTheKeyframeBeforeTheLast) {
-  KeyframeBuilder builder(SmallRig(), SmallConfig(), true);
+  KeyframeBuilder builder(SmallRig(), SmallOptions(), true);
   const EventArray events = RandomStream(0, 300'000, 60'000, 3);
   builder.AddEvents(events, events.t.back());
   for (const ImuSample& s : ImuStream(0, 290'000)) builder.AddImu(s);
@@ -145,7 +145,7 @@ TEST(KeyframeBuilder, BadDataIsCountedAndDropped) {
   const EventArray events = RandomStream(1'000'000, 1'500'000, 40'000, 3);
   const std::vector<ImuSample> imu = ImuStream(1'000'000, 1'495'000);
   const auto run = [&](bool bad) {
-    KeyframeBuilder builder(SmallRig(), SmallConfig(), false);
+    KeyframeBuilder builder(SmallRig(), SmallOptions(), false);
     std::vector<Keyframe> out;
     std::size_t m = 0;
     for (std::size_t e = 0; e < events.size(); e += 200) {
@@ -186,7 +186,7 @@ TEST(KeyframeBuilder, BadDataIsCountedAndDropped) {
 }
 
 TEST(KeyframeBuilder, ClockSetBackBeginsAnew) {
-  KeyframeBuilder builder(SmallRig(), SmallConfig(), false);
+  KeyframeBuilder builder(SmallRig(), SmallOptions(), false);
   builder.SetFeedbackFor(-1, Tracking(150));
   std::int64_t seq = -1;
   for (const Utime origin : {100'000'000, 5'000'000}) {
@@ -209,7 +209,7 @@ TEST(KeyframeBuilder, ClockSetBackBeginsAnew) {
 }
 
 TEST(KeyframeBuilder, RealTimeGoesOnWithoutEventsThatAreLate) {
-  KeyframeBuilder builder(SmallRig(), SmallConfig(), false);
+  KeyframeBuilder builder(SmallRig(), SmallOptions(), false);
   const EventArray events = RandomStream(0, 100'000, 40'000, 3);
   builder.AddEvents(events, events.t.back());
   int n = 0;

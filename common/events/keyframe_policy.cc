@@ -12,17 +12,17 @@ Utime Micros(double ms) { return std::max<Utime>(std::llround(ms * 1e3), 1); }
 
 }  // namespace
 
-KeyframePolicy::KeyframePolicy(const config::Keyframes& keyframes, const config::Surface& surface)
-    : n_event_(keyframes.n_event()),
-      min_events_(keyframes.min_events()),
-      n_imu_(keyframes.n_imu()),
-      max_interval_(Micros(keyframes.max_interval_ms())),
-      high_rate_interval_(Micros(keyframes.bootstrap_interval_ms())),
-      fixed_interval_(keyframes.fixed_rate_hz() > 0 ? Micros(1e3 / keyframes.fixed_rate_hz()) : 0),
-      tail_px_(surface.tail_px()),
-      min_decay_us_(surface.min_decay_ms() * 1e3),
-      max_decay_us_(surface.max_decay_ms() * 1e3),
-      default_decay_us_(surface.default_decay_ms() * 1e3) {}
+KeyframePolicy::KeyframePolicy(const KeyframeOptions& keyframes, const SurfaceOptions& surface)
+    : n_event_(keyframes.n_event),
+      min_events_(keyframes.min_events),
+      n_imu_(keyframes.n_imu),
+      max_interval_(Micros(keyframes.max_interval_ms)),
+      high_rate_interval_(Micros(keyframes.bootstrap_interval_ms)),
+      fixed_interval_(keyframes.fixed_rate_hz > 0 ? Micros(1e3 / keyframes.fixed_rate_hz) : 0),
+      tail_px_(surface.tail_px),
+      min_decay_us_(surface.min_decay_ms * 1e3),
+      max_decay_us_(surface.max_decay_ms * 1e3),
+      default_decay_us_(surface.default_decay_ms * 1e3) {}
 
 std::optional<Utime> KeyframePolicy::Due(const Situation& s) const {
   if (fixed_interval_ > 0 || IsHighRate(s.mode)) {

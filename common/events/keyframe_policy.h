@@ -2,7 +2,8 @@
 
 #include <optional>
 
-#include "common/config/tracker.pb.h"
+#include "common/events/keyframe_options.h"
+#include "common/events/surface_options.h"
 #include "common/imu/imu_sample.h"
 
 namespace evit {
@@ -19,7 +20,7 @@ struct TrackerFeedback {
 /// When a keyframe is due, and with which decay its surface is drawn. Pure: no state, no clock.
 class KeyframePolicy {
  public:
-  KeyframePolicy(const config::Keyframes& keyframes, const config::Surface& surface);
+  KeyframePolicy(const KeyframeOptions& keyframes, const SurfaceOptions& surface);
 
   struct Situation {
     TrackerFeedback::Mode mode = TrackerFeedback::Mode::kBootstrapping;

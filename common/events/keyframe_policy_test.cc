@@ -15,7 +15,7 @@ class KeyframePolicyTest : public ::testing::Test {
     return {mode, 1, 1'000'000, imu, imu - 5'000, n_events, n_imu};
   }
   // 1500 events, 4 samples, 60 ms with 200 events; high rate: 7.3 ms.
-  KeyframePolicy policy_{test::SmallConfig().keyframes(), test::SmallConfig().surface()};
+  KeyframePolicy policy_{test::SmallOptions().keyframes, test::SmallOptions().surface};
 };
 
 TEST_F(KeyframePolicyTest, TrackingNeedsEnoughEventsAndEnoughSamples) {
@@ -50,9 +50,9 @@ TEST_F(KeyframePolicyTest, HighRateStampsLieBetweenSamples) {
 }
 
 TEST_F(KeyframePolicyTest, AFixedRateKeepsToItself) {
-  config::Keyframes keyframes = test::SmallConfig().keyframes();
-  keyframes.set_fixed_rate_hz(100);
-  const KeyframePolicy fixed(keyframes, test::SmallConfig().surface());
+  KeyframeOptions keyframes = test::SmallOptions().keyframes;
+  keyframes.fixed_rate_hz = 100;
+  const KeyframePolicy fixed(keyframes, test::SmallOptions().surface);
   for (const Mode mode : {Mode::kBootstrapping, Mode::kTracking, Mode::kLost}) {
     EXPECT_FALSE(fixed.Due(At(mode, 1'009'999, 1'000'000, 2)));
     EXPECT_EQ(fixed.Due(At(mode, 1'012'000, 0, 2)), 1'010'000);

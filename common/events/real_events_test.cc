@@ -33,14 +33,14 @@ class RealEventsTest : public ::testing::Test {
 enum class Side { kBefore, kAfter, kNearest };
 
 SurfaceRenderer::Image Draw(const EventArray& events, Utime t, Side side) {
-  config::Surface settings = test::SmallConfig().surface();
+  const SurfaceOptions options = test::SmallOptions().surface;
   ActiveEventSurface surface(kWidth, kHeight);
   std::size_t middle = 0;
   while (middle < events.size() && events.t[middle] <= t) ++middle;
   if (side != Side::kAfter) {
     surface.Update(events.t.data(), events.x.data(), events.y.data(), events.p.data(), middle);
   }
-  SurfaceRenderer renderer(kWidth, kHeight, settings);
+  SurfaceRenderer renderer(kWidth, kHeight, options);
   SurfaceRenderer::View view;
   view.t = t;
   view.decay_us = 15'000;
@@ -92,7 +92,7 @@ TEST_F(RealEventsTest, KeyframesDoNotDependOnThePackets) {
   const std::vector<ImuSample> imu = test::ImuStream(0, 175'000);
   std::vector<Keyframe> results[2];
   for (int run = 0; run < 2; ++run) {
-    KeyframeBuilder builder(rig, test::SmallConfig(), true);
+    KeyframeBuilder builder(rig, test::SmallOptions(), true);
     std::vector<Keyframe>& out = results[run];
     const auto take = [&] {
       while (auto k = builder.Next()) {

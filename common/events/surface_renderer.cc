@@ -17,13 +17,13 @@ double VisibleUs(double decay_us, double truncation) {
   return decay_us * std::log(255 / std::clamp(truncation, 0.5, 255.0));
 }
 
-SurfaceRenderer::SurfaceRenderer(int width, int height, const config::Surface& settings)
+SurfaceRenderer::SurfaceRenderer(int width, int height, const SurfaceOptions& options)
     : width_(width),
       height_(height),
-      truncation_(settings.truncation()),
-      split_(settings.split_polarity()),
-      support_(settings.support_filter()),
-      pass_(width, height, settings.blur_sigma_px()) {
+      truncation_(options.truncation),
+      split_(options.split_polarity),
+      support_(options.support_filter),
+      pass_(width, height, options.blur_sigma_px) {
   for (auto& plane : distances_) plane.resize(std::size_t(width) * height);
 }
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/config/tracker.pb.h"
 #include "common/events/active_event_surface.h"
 #include "common/events/event.h"
+#include "common/events/surface_options.h"
 #include "common/events/surface_rows.h"
 
 namespace evit {
@@ -23,7 +23,7 @@ class SurfaceRenderer {
  public:
   using Image = std::vector<std::uint8_t>;  // row-major [height][width]
 
-  SurfaceRenderer(int width, int height, const config::Surface& settings);
+  SurfaceRenderer(int width, int height, const SurfaceOptions& options);
 
   struct View {
     Utime t = 0;                        // the instant; `surface` holds exactly the events up to it

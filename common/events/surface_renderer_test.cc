@@ -12,12 +12,12 @@ namespace {
 
 constexpr int kWidth = 60, kHeight = 40;
 
-config::Surface Settings(bool support, bool split, double truncation, double sigma) {
-  config::Surface s;
-  s.set_support_filter(support);
-  s.set_split_polarity(split);
-  s.set_truncation(truncation);
-  s.set_blur_sigma_px(sigma);
+SurfaceOptions Settings(bool support, bool split, double truncation, double sigma) {
+  SurfaceOptions s;
+  s.support_filter = support;
+  s.split_polarity = split;
+  s.truncation = truncation;
+  s.blur_sigma_px = sigma;
   return s;
 }
 
@@ -36,7 +36,7 @@ EventArray RandomEvents(int n, Utime begin, Utime end, unsigned seed) {
 /// Written as plainly as possible: double precision, no tables, from the list of events.
 class Reference {
  public:
-  Reference(const EventArray& events, Utime t, Utime lookahead, double decay, const config::Surface& s)
+  Reference(const EventArray& events, Utime t, Utime lookahead, double decay, const SurfaceOptions& s)
       : events_(events), t_(t), lookahead_(lookahead), decay_(decay), s_(s) {}
 
   // Polarities as bits: 1 darker, 2 brighter.
@@ -53,8 +53,7 @@ class Reference {
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
         const double value = 255 * std::exp(-Distance(x, y, polarities) / decay_);
-        drawn[y * kWidth + x] =
-            value >= s_.truncation() && (!s_.support_filter() || Supported(x, y)) ? value : 0;
+        drawn[y * kWidth + x] = value >= s_.truncation && (!s_.support_filter || Supported(x, y)) ? value : 0;
       }
     }
     Blur(drawn, &rows, true);
@@ -73,7 +72,7 @@ class Reference {
     return false;
   }
   void Blur(const std::vector<double>& in, std::vector<double>* out, bool along_x) const {
-    const double sigma = s_.blur_sigma_px();
+    const double sigma = s_.blur_sigma_px;
     const int radius = sigma > 0 ? static_cast<int>(std::lround(6 * sigma)) / 2 : 0;
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
@@ -93,7 +92,7 @@ class Reference {
   const EventArray& events_;
   Utime t_, lookahead_;
   double decay_;
-  config::Surface s_;
+  SurfaceOptions s_;
 };
 
 struct Case {
@@ -108,7 +107,7 @@ TEST_P(RenderTest, WithinOneGreyLevelOfPlainReference) {
   const Case& c = GetParam();
   const EventArray events = RandomEvents(9000, 1'000'000, 1'100'000, 7);
   const Utime t = 1'080'000;
-  const config::Surface s = Settings(c.support, c.split, c.truncation, c.sigma);
+  const SurfaceOptions s = Settings(c.support, c.split, c.truncation, c.sigma);
   const std::size_t middle = std::upper_bound(events.t.begin(), events.t.end(), t) - events.t.begin();
   const std::size_t end =
       std::upper_bound(events.t.begin(), events.t.end(), t + c.lookahead) - events.t.begin();

@@ -22,7 +22,7 @@ FrameBuilder::FrameBuilder(Bus* bus, const Channels& channels, const Settings& s
       status_(bus, channels, "frame_builder", NewEpoch()),
       modes_(&status_, "TRACKER_MODE"),
       inbox_(&status_, settings.lossless),
-      builder_(settings.rig, settings.tracker, settings.lossless) {
+      builder_(settings.rig, settings.keyframes, settings.lossless) {
   const auto on = [&](const std::string& channel, auto method) {
     bus_->Subscribe(channel, [this, method](const std::string&, const std::uint8_t* data, std::size_t size) {
       (this->*method)(data, size);

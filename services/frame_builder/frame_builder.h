@@ -27,7 +27,7 @@ class FrameBuilder : public Service {
  public:
   struct Settings {
     Rig rig;
-    config::Tracker tracker;
+    KeyframeBuilder::Options keyframes;
     bool lossless = false;
     std::chrono::milliseconds send_again{500};  // after this without an answer
   };

@@ -19,7 +19,7 @@ class FrameBuilderTest : public ::testing::Test {
   void Start(bool lossless) {
     FrameBuilder::Settings settings;
     settings.rig = test::SmallRig();
-    settings.tracker = test::SmallConfig();
+    settings.keyframes = test::SmallOptions();
     settings.lossless = lossless;
     settings.send_again = std::chrono::milliseconds(20);
     service_ = std::make_unique<FrameBuilder>(bus_.get(), Channels(), settings);

@@ -19,7 +19,9 @@ int Main(int argc, char** argv) {
   }
   evit::FrameBuilder::Settings settings;
   settings.rig = evit::LoadRig(rig);
-  settings.tracker = evit::LoadTracker(config);
+  const evit::PipelineOptions pipeline = evit::LoadOptions(config);
+  settings.keyframes = {pipeline.keyframes, pipeline.surface,
+                        pipeline.method == evit::PipelineOptions::Method::kEvpt};
   settings.lossless = options.lossless;
   const auto bus = evit::OpenServiceBus(options);
   evit::FrameBuilder service(bus.get(), evit::Channels(options.prefix), settings);

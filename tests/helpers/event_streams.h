@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "common/config/tracker.pb.h"
 #include "common/events/event.h"
+#include "common/events/keyframe_builder.h"
 #include "common/geometry/rig.h"
 #include "common/imu/imu_sample.h"
 
@@ -24,29 +24,28 @@ inline Rig SmallRig() {
   return rig;
 }
 
-inline config::Tracker SmallConfig() {
-  config::Tracker config;
-  config::Keyframes& k = *config.mutable_keyframes();
-  k.set_n_event(1500);
-  k.set_n_imu(4);
-  k.set_max_interval_ms(60);
-  k.set_min_events(200);
-  k.set_fixed_rate_hz(0);
-  k.set_bootstrap_interval_ms(7.3);  // between IMU samples
-  config::Surface& s = *config.mutable_surface();
-  s.set_kind(config::Surface::SYMMETRIC);
-  s.set_lookahead_ms(10);
-  s.set_tail_px(3);
-  s.set_min_decay_ms(2);
-  s.set_max_decay_ms(30);
-  s.set_default_decay_ms(8);
-  s.set_truncation(20);
-  s.set_blur_sigma_px(1);
-  s.set_split_polarity(false);
-  s.set_support_filter(true);
-  s.set_hot_pixel_rate_hz(100);
-  s.set_lag_px(0);
-  return config;
+inline KeyframeBuilder::Options SmallOptions() {
+  KeyframeBuilder::Options options;
+  KeyframeOptions& k = options.keyframes;
+  k.n_event = 1500;
+  k.n_imu = 4;
+  k.max_interval_ms = 60;
+  k.min_events = 200;
+  k.fixed_rate_hz = 0;
+  k.bootstrap_interval_ms = 7.3;  // between IMU samples
+  SurfaceOptions& s = options.surface;
+  s.kind = SurfaceOptions::Kind::kSymmetric;
+  s.lookahead_ms = 10;
+  s.tail_px = 3;
+  s.min_decay_ms = 2;
+  s.max_decay_ms = 30;
+  s.default_decay_ms = 8;
+  s.truncation = 20;
+  s.blur_sigma_px = 1;
+  s.support_filter = true;
+  s.hot_pixel_rate_hz = 100;
+  s.lag_px = 0;
+  return options;
 }
 
 /// Random events at `rate` per second; some share a stamp.
