@@ -56,8 +56,8 @@ void WriteCurves(const Results& results, const std::string& folder) {
     }
     if (points.empty()) throw std::runtime_error(std::string("no rows of \"Scaling, ") + curve.family + "\"");
     std::string csv = std::string(curve.x_label) + ",ms\n";
-    Series measured{"measured", cv::Scalar(180, 90, 20), {}, {}}, dots = measured;
-    Series linear{"linear", cv::Scalar(160, 160, 160), {}, {}};
+    pictures::Series measured{"measured", cv::Scalar(180, 90, 20), {}, {}}, dots = measured;
+    pictures::Series linear{"linear", cv::Scalar(160, 160, 160), {}, {}};
     dots.name.clear();
     dots.line = false;
     const auto [last_x, last_y] = *points.rbegin();
@@ -68,7 +68,7 @@ void WriteCurves(const Results& results, const std::string& folder) {
     }
     dots.x = measured.x, dots.y = measured.y;
     WriteText(folder + "/" + curve.file + ".csv", csv);
-    Chart chart;
+    pictures::Chart chart;
     chart.title = curve.title;
     chart.x_label = curve.x_label;
     chart.y_label = "ms";

@@ -67,14 +67,14 @@ void DrawStages(const nlohmann::json& report, const std::string& png) {
                 "CPU time of one keyframe, all processes: %.1f ms (%.2f million events/s, %.0f keyframes/s)",
                 total, 1e-6 * report["event_rate_per_s"].get<double>(),
                 report["keyframe_rate_hz"].get<double>());
-  DrawText(&image, text, {kWidth / 2, 32}, 0.6, Anchor::kCenter);
+  pictures::DrawText(&image, text, {kWidth / 2, 32}, 0.6, pictures::Anchor::kCenter);
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const int y = kTop + kRow * static_cast<int>(k);
     const int length = static_cast<int>(stages[k].ms / longest * (kWidth - kLeft - 90));
     cv::rectangle(image, cv::Rect(kLeft, y + 5, std::max(length, 1), kRow - 10), stages[k].color, cv::FILLED);
-    DrawText(&image, stages[k].name, {kLeft - 10, y + kRow / 2 + 5}, 0.5, Anchor::kRight);
+    pictures::DrawText(&image, stages[k].name, {kLeft - 10, y + kRow / 2 + 5}, 0.5, pictures::Anchor::kRight);
     std::snprintf(text, sizeof text, "%.2f ms", stages[k].ms);
-    DrawText(&image, text, {kLeft + length + 8, y + kRow / 2 + 5}, 0.5, Anchor::kLeft);
+    pictures::DrawText(&image, text, {kLeft + length + 8, y + kRow / 2 + 5}, 0.5, pictures::Anchor::kLeft);
   }
   if (!cv::imwrite(png, image)) throw std::runtime_error(png + ": cannot be written");
 }

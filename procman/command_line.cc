@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 bool InName(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
@@ -152,4 +152,4 @@ std::string JoinCommandLine(const std::vector<std::string>& words) {
   return line;
 }
 
-}  // namespace evit
+}  // namespace evit::procman

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace evit {
+namespace evit::procman {
 
 /// A command line taken apart.
 struct CommandLine {
@@ -29,4 +29,4 @@ CommandLine SplitCommandLine(const std::string& line);
 /// The other way: words quoted so that SplitCommandLine gives them back.
 std::string JoinCommandLine(const std::vector<std::string>& words);
 
-}  // namespace evit
+}  // namespace evit::procman

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 using ::testing::ElementsAre;
@@ -57,4 +57,4 @@ TEST(CommandLineTest, JoinedWordsComeApartTheSame) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::procman

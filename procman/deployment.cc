@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 bool InGroup(const ProcmanCommand& command, const std::string& group) {
@@ -31,4 +31,4 @@ std::vector<std::string> Deployment::Targets(const ScriptStep& step) const {
   return ids;
 }
 
-}  // namespace evit
+}  // namespace evit::procman

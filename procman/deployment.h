@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace evit {
+namespace evit::procman {
 
 /// One command of a deployment: what it is and how it is to be stopped.
 struct ProcmanCommand {
@@ -55,4 +55,4 @@ enum class ProcmanDialect { kProcman, kBotProcman };
 /// As text, which ParseDeployment reads again to the same deployment. Comments are not kept.
 std::string WriteDeployment(const Deployment& deployment, ProcmanDialect dialect);
 
-}  // namespace evit
+}  // namespace evit::procman

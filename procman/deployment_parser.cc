@@ -9,7 +9,7 @@
 #include "procman/deployment.h"
 #include "procman/lexer.h"
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 constexpr int kDeepest = 16;  // groups in groups
@@ -235,4 +235,4 @@ Deployment LoadDeployment(const std::string& path) {
   return ParseDeployment(text, path);
 }
 
-}  // namespace evit
+}  // namespace evit::procman

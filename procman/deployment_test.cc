@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 using ::testing::AllOf;
@@ -143,4 +143,4 @@ TEST(DeploymentTest, TheShippedFilesAreInStep) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::procman

@@ -2,7 +2,7 @@
 
 #include "procman/deployment.h"
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 std::string Quote(const std::string& text) {
@@ -90,4 +90,4 @@ std::string WriteDeployment(const Deployment& deployment, ProcmanDialect dialect
   return out;
 }
 
-}  // namespace evit
+}  // namespace evit::procman

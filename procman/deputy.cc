@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 constexpr std::size_t kMaxText = 16384;       // bytes of one PM_OUTPUT
@@ -164,4 +164,4 @@ void Deputy::Tick() {
   if (changed || Clock::now() - sent_ >= std::chrono::seconds(1)) PublishInfo();
 }
 
-}  // namespace evit
+}  // namespace evit::procman

@@ -11,7 +11,7 @@
 #include "procman/supervisor.h"
 #include "procman/wire.h"
 
-namespace evit {
+namespace evit::procman {
 
 /// A supervisor on the bus, as procman's deputy is: PM_INFO at 1 Hz and on change, PM_OUTPUT for what its
 /// commands say, and it obeys PM_ORDERS and PM_DISCOVER. Orders choose among the commands it was given: what
@@ -55,4 +55,4 @@ class Deputy {
   Supervisor supervisor_;
 };
 
-}  // namespace evit
+}  // namespace evit::procman

@@ -7,7 +7,7 @@
 #include "procman/sheriff.h"
 #include "tests/helpers/programs.h"
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 using ::testing::HasSubstr;
@@ -176,4 +176,4 @@ TEST(SheriffTest, SaysThatNobodyAnswers) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::procman

@@ -3,7 +3,7 @@
 #include <cctype>
 #include <stdexcept>
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 class Lexer {
@@ -92,4 +92,4 @@ std::vector<Token> Tokenize(const std::string& text, const std::string& file) {
   return Lexer(text, file).Run();
 }
 
-}  // namespace evit
+}  // namespace evit::procman

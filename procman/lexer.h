@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace evit {
+namespace evit::procman {
 
 /// One word of a procman file.
 struct Token {
@@ -17,4 +17,4 @@ struct Token {
 /// comment. The last token is kEnd. Throws std::runtime_error naming `file` and the line.
 std::vector<Token> Tokenize(const std::string& text, const std::string& file);
 
-}  // namespace evit
+}  // namespace evit::procman

@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 using std::chrono::milliseconds;
@@ -178,4 +178,4 @@ std::string ManagedProcess::LastWords(int lines) const {
   return text;
 }
 
-}  // namespace evit
+}  // namespace evit::procman

@@ -9,7 +9,7 @@
 #include "procman/command_line.h"
 #include "procman/deployment.h"
 
-namespace evit {
+namespace evit::procman {
 
 /// One command as a process: started, asked to stop, killed where it does not, and started again with a
 /// growing delay where it dies by itself. It never outlives this process: the kernel kills it then, whatever
@@ -90,4 +90,4 @@ class ManagedProcess {
   std::string last_words_;  // the end of what it said
 };
 
-}  // namespace evit
+}  // namespace evit::procman

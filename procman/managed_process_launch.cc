@@ -12,7 +12,7 @@
 
 #include "procman/managed_process.h"
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 bool Executable(const std::string& path) { return access(path.c_str(), X_OK) == 0; }
@@ -101,4 +101,4 @@ pid_t ManagedProcess::Fork(const std::string& program, const CommandLine& line, 
   _exit(127);
 }
 
-}  // namespace evit
+}  // namespace evit::procman

@@ -7,7 +7,7 @@
 #include "procman/supervisor.h"
 #include "tests/helpers/programs.h"
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 using ::testing::AllOf;
@@ -190,4 +190,4 @@ TEST_F(ManagedProcessTest, SupervisorStopsTheLastOneFirstAndWaitsForIt) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::procman

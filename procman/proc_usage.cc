@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-namespace evit {
+namespace evit::procman {
 
 ProcessUsage ReadProcessUsage(pid_t pid) {
   ProcessUsage usage;
@@ -54,4 +54,4 @@ HostUsage ReadHostUsage() {
   return usage;
 }
 
-}  // namespace evit
+}  // namespace evit::procman

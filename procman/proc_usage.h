@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace evit {
+namespace evit::procman {
 
 /// What a running process uses, from /proc; zeros where it is gone.
 struct ProcessUsage {
@@ -19,4 +19,4 @@ struct HostUsage {
 };
 HostUsage ReadHostUsage();
 
-}  // namespace evit
+}  // namespace evit::procman

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-namespace evit {
+namespace evit::procman {
 
 ScriptRunner::ScriptRunner(const Deployment& deployment, Supervisor* supervisor)
     : deployment_(deployment), supervisor_(supervisor) {}
@@ -62,4 +62,4 @@ bool ScriptRunner::Reached(const ScriptStep& step) const {
   return true;
 }
 
-}  // namespace evit
+}  // namespace evit::procman

@@ -7,7 +7,7 @@
 #include "procman/deployment.h"
 #include "procman/supervisor.h"
 
-namespace evit {
+namespace evit::procman {
 
 /// Runs a script of a deployment step by step, without ever blocking.
 class ScriptRunner {
@@ -36,4 +36,4 @@ class ScriptRunner {
   std::chrono::steady_clock::time_point since_;
 };
 
-}  // namespace evit
+}  // namespace evit::procman

@@ -5,7 +5,7 @@
 
 #include "tests/helpers/programs.h"
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 using ::testing::HasSubstr;
@@ -45,4 +45,4 @@ TEST_F(ScriptRunnerTest, RunsStepsInOrderAndWaits) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::procman

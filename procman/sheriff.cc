@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -116,4 +116,4 @@ void Sheriff::Give(Order order, const std::string& id, std::chrono::milliseconds
   }
 }
 
-}  // namespace evit
+}  // namespace evit::procman

@@ -9,7 +9,7 @@
 #include "common/bus/bus.h"
 #include "procman/wire.h"
 
-namespace evit {
+namespace evit::procman {
 
 /// The other side of PM_*: sees all deputies and gives orders to them. Keeps nothing that a deputy does not
 /// say.
@@ -38,4 +38,4 @@ class Sheriff {
   std::map<std::string, procman_lcm::deputy_info_t> deputies_;
 };
 
-}  // namespace evit
+}  // namespace evit::procman

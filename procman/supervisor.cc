@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace evit {
+namespace evit::procman {
 
 Supervisor::Supervisor(const std::vector<ProcmanCommand>& commands, const ManagedProcess::Places& places,
                        const ManagedProcess::Sink& sink) {
@@ -56,4 +56,4 @@ void Supervisor::StopAll() {
   started_.clear();
 }
 
-}  // namespace evit
+}  // namespace evit::procman

@@ -6,7 +6,7 @@
 
 #include "procman/managed_process.h"
 
-namespace evit {
+namespace evit::procman {
 
 /// All commands of one deputy. They end with this object.
 class Supervisor {
@@ -39,4 +39,4 @@ class Supervisor {
   std::vector<ManagedProcess*> started_;  // in order
 };
 
-}  // namespace evit
+}  // namespace evit::procman

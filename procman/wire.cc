@@ -2,7 +2,7 @@
 
 #include "common/bus/wire_layout.h"
 
-namespace evit {
+namespace evit::procman {
 namespace {
 
 constexpr std::int32_t kMaxCommands = 1000;
@@ -47,4 +47,4 @@ template bool DecodeProcman(const std::uint8_t*, std::size_t, procman_lcm::deput
 template bool DecodeProcman(const std::uint8_t*, std::size_t, procman_lcm::output_t*, std::string*);
 template bool DecodeProcman(const std::uint8_t*, std::size_t, procman_lcm::discovery_t*, std::string*);
 
-}  // namespace evit
+}  // namespace evit::procman

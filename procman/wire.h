@@ -10,7 +10,7 @@
 #include "procman_lcm/orders_t.hpp"
 #include "procman_lcm/output_t.hpp"
 
-namespace evit {
+namespace evit::procman {
 
 /// procman's channels. They have no prefix: a deputy's messages carry its id.
 constexpr char kPmInfo[] = "PM_INFO", kPmOrders[] = "PM_ORDERS", kPmOutput[] = "PM_OUTPUT",
@@ -29,4 +29,4 @@ std::vector<std::uint8_t> EncodeProcman(const Message& message) {
   return bytes;
 }
 
-}  // namespace evit
+}  // namespace evit::procman

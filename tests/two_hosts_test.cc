@@ -71,7 +71,7 @@ TEST_F(TwoHostsTest, TracksAcrossTheCable) {
   const Trajectory truth = ReadTum(kLogs + "sample_truth.tum");
   const std::string line = TumLine(truth.front());
   const auto bus = OpenLcmBus(kUrl);
-  Recorder recorder(bus.get(), Channels());
+  run::Recorder recorder(bus.get(), Channels());
   const auto map_server = Start(false, "map_server", {"--map", kLogs + "sample_map.pcd"});
   const auto optimizer = Start(
       false, "window_optimizer",
@@ -87,8 +87,8 @@ TEST_F(TwoHostsTest, TracksAcrossTheCable) {
   // The cable was used: the optimiser's host saw keyframes that only this one sends.
   EXPECT_GT(recorder.online().size(), 30u);
   for (const auto& [name, status] : recorder.statuses()) {
-    EXPECT_EQ(CounterOf(status, "KEYFRAME.lost"), 0) << name;
-    EXPECT_EQ(CounterOf(status, "bus.send_errors"), 0) << name;
+    EXPECT_EQ(run::CounterOf(status, "KEYFRAME.lost"), 0) << name;
+    EXPECT_EQ(run::CounterOf(status, "bus.send_errors"), 0) << name;
   }
 }
 

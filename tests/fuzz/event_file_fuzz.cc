@@ -7,7 +7,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     const evit::fuzz::TemporaryFile file(data, size);
-    evit::EventFileReader reader(file.path());
+    evit::formats::EventFileReader reader(file.path());
     evit::EventArray events;
     for (int k = 0; k < 10 && reader.Read(10'000, &events) > 0; ++k) {
     }

@@ -24,7 +24,7 @@ template <typename Message>
 void TryProcman(const std::uint8_t* data, std::size_t size) {
   Message message;
   std::string why;
-  if (evit::DecodeProcman(data, size, &message, &why)) evit::EncodeProcman(message);
+  if (evit::procman::DecodeProcman(data, size, &message, &why)) evit::procman::EncodeProcman(message);
 }
 
 using Function = void (*)(const std::uint8_t*, std::size_t);

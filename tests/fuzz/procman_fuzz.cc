@@ -9,20 +9,21 @@
 
 namespace {
 
-void Deployment(const std::string& text) {
-  const evit::Deployment d = evit::ParseDeployment(text, "fuzz");
-  const std::string written = evit::WriteDeployment(d, evit::ProcmanDialect::kBotProcman);
+void CheckDeployment(const std::string& text) {
+  const evit::procman::Deployment d = evit::procman::ParseDeployment(text, "fuzz");
+  const std::string written = evit::procman::WriteDeployment(d, evit::procman::ProcmanDialect::kBotProcman);
   // What is written reads back to the same.
-  if (evit::WriteDeployment(evit::ParseDeployment(written, "again"), evit::ProcmanDialect::kBotProcman) !=
-      written) {
+  if (evit::procman::WriteDeployment(evit::procman::ParseDeployment(written, "again"),
+                                     evit::procman::ProcmanDialect::kBotProcman) != written) {
     __builtin_trap();
   }
 }
 
-void CommandLine(const std::string& text) {
+void CheckCommandLine(const std::string& text) {
   const auto value = [](const std::string&) -> std::optional<std::string> { return "a b"; };
-  const evit::CommandLine line = evit::SplitCommandLine(text, value);
-  if (evit::SplitCommandLine(evit::JoinCommandLine(line.words), value).words != line.words) __builtin_trap();
+  const evit::procman::CommandLine line = evit::procman::SplitCommandLine(text, value);
+  if (evit::procman::SplitCommandLine(evit::procman::JoinCommandLine(line.words), value).words != line.words)
+    __builtin_trap();
 }
 
 }  // namespace
@@ -33,10 +34,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     switch (data[0] % 4) {
       case 0:
-        Deployment(text);
+        CheckDeployment(text);
         break;
       case 1:
-        CommandLine(text);
+        CheckCommandLine(text);
         break;
       case 2:
         evit::ParseBusFaults(text);

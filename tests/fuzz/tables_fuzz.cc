@@ -12,28 +12,28 @@
 namespace {
 
 void Read(int table, const std::string& path) {
-  evit::DropCounts dropped;
+  evit::formats::DropCounts dropped;
   switch (table) {
     case 0:
-      evit::ReadImuFile(path);
+      evit::formats::ReadImuFile(path);
       break;
     case 1:
       evit::ReadTum(path);
       break;
     case 2:
-      evit::ReadRpgImu(path, &dropped);
+      evit::formats::ReadRpgImu(path, &dropped);
       break;
     case 3:
-      evit::ReadRpgTruth(path, &dropped);
+      evit::formats::ReadRpgTruth(path, &dropped);
       break;
     case 4:
-      evit::ReadRpgCamera(path, 240, 180);
+      evit::formats::ReadRpgCamera(path, 240, 180);
       break;
     case 6:
       evit::ReadCovariances(path);
       break;
     default: {
-      evit::RpgEvents reader(path, 240, 180);
+      evit::formats::RpgEvents reader(path, 240, 180);
       evit::EventArray events;
       while (reader.Read(&events)) {
       }

@@ -35,14 +35,14 @@ class TestFolder {
 };
 
 /// The configuration shipped, loaded.
-inline paper::Paper ShippedPaper() { return LoadPaper(EVIT_SOURCE_DIR "/config/paper.textproto"); }
+inline paper::Paper ShippedPaper() { return paper::LoadPaper(EVIT_SOURCE_DIR "/config/paper.textproto"); }
 
 /// A run with the same error under every alignment: `reached` milestones, the k-th with k cm more than the
 /// first.
-inline RunScore MadeUpRun(double position_cm, double orientation_deg, int reached) {
-  RunScore run;
+inline paper::RunScore MadeUpRun(double position_cm, double orientation_deg, int reached) {
+  paper::RunScore run;
   for (auto& row : run.ate) {
-    for (int m = 0; m < reached; ++m) row[m] = Ate{position_cm + m, orientation_deg};
+    for (int m = 0; m < reached; ++m) row[m] = paper::Ate{position_cm + m, orientation_deg};
   }
   run.keyframe_rate_hz = 50;
   run.cpu_s_per_s = 0.5;

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <vector>
 
-namespace evit {
+namespace evit::calibration {
 namespace {
 
 constexpr double kDegrees = 57.295779513082323;
@@ -151,4 +151,4 @@ std::string TiltAdvice(const CameraImuCalibration& c, const std::string& map, co
              turned.q.w());
 }
 
-}  // namespace evit
+}  // namespace evit::calibration

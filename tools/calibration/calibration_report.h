@@ -4,7 +4,7 @@
 
 #include "common/calibration/camera_imu_calibration.h"
 
-namespace evit {
+namespace evit::calibration {
 
 /// The rig with what was found in it.
 Rig Calibrated(const Rig& before, const CameraImuCalibration& calibration);
@@ -20,4 +20,4 @@ std::string RigComment(const Rig& before, const CameraImuCalibration& calibratio
 /// start pose goes by that; else empty.
 std::string TiltAdvice(const CameraImuCalibration& calibration, const std::string& map, const SE3& start);
 
-}  // namespace evit
+}  // namespace evit::calibration

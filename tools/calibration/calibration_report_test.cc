@@ -13,7 +13,7 @@
 #include "tests/helpers/sample_messages.h"
 #include "tools/calibration/recorded_motion.h"
 
-namespace evit {
+namespace evit::calibration {
 namespace {
 
 using ::testing::AllOf;
@@ -119,4 +119,4 @@ TEST(RecordedMotion, CameraDependsOnNeitherExtrinsicsNorOffset) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::calibration

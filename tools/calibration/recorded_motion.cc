@@ -7,7 +7,7 @@
 #include "common/bus/log_file.h"
 #include "evit/imu_batch_t.hpp"
 
-namespace evit {
+namespace evit::calibration {
 
 std::vector<ImuSample> ReadImu(const std::string& path, const ImuNoise& limits) {
   const LogReader log(path);
@@ -43,4 +43,4 @@ Trajectory CameraOf(const Trajectory& body, const Rig& rig) {
   return camera;
 }
 
-}  // namespace evit
+}  // namespace evit::calibration

@@ -7,7 +7,7 @@
 #include "common/geometry/rig.h"
 #include "common/imu/imu_sample.h"
 
-namespace evit {
+namespace evit::calibration {
 
 /// The IMU samples of an LCM log in the order they were recorded; readings that are beyond the sensor's range
 /// by a tenth are left out, and what is no well-formed message. Throws std::runtime_error naming the file
@@ -18,4 +18,4 @@ std::vector<ImuSample> ReadImu(const std::string& log, const ImuNoise& limits);
 /// gave: its extrinsics and offset are taken out again.
 Trajectory CameraOf(const Trajectory& body, const Rig& rig);
 
-}  // namespace evit
+}  // namespace evit::calibration

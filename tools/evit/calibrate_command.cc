@@ -13,17 +13,17 @@
 #include "tools/evit/options.h"
 #include "tools/run/run.h"
 
-namespace evit {
+namespace evit::commands {
 namespace {
 
 struct CalibrateOptions {
-  RunJob job;  // the event-only run
+  run::RunJob job;  // the event-only run
   std::string pose, from, seconds, out, poses;
 };
 
 // Runs the event-only tracker; the file of its poses.
 std::string Track(CalibrateOptions* o) {
-  RunJob& job = o->job;
+  run::RunJob& job = o->job;
   if (o->pose.empty() && o->from.empty())
     throw std::runtime_error("--initial-pose or --initial-from is wanted");
   if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
@@ -39,27 +39,28 @@ std::string Track(CalibrateOptions* o) {
   job.command = "evit calibrate";
   std::printf("tracking the camera by its events alone\n");
   std::fflush(stdout);
-  if (const int code = Run(job); code == 130) throw CLI::RuntimeError(code);
+  if (const int code = run::Run(job); code == 130) throw CLI::RuntimeError(code);
   return job.out + "/trajectory.tum";
 }
 
 void Calibrate(CalibrateOptions* o) {
-  const RunJob& job = o->job;
+  const run::RunJob& job = o->job;
   const Rig before = LoadRig(job.rig);
   const std::string poses = o->poses.empty() ? Track(o) : o->poses;
-  const Trajectory camera = CameraOf(ReadTum(poses), before);
+  const Trajectory camera = calibration::CameraOf(ReadTum(poses), before);
   std::printf("\ncalibrating from %zu poses\n", camera.size());
   std::fflush(stdout);
-  const CameraImuCalibration found = CalibrateCameraImu(camera, ReadImu(job.log, before.imu_noise), before);
+  const CameraImuCalibration found =
+      CalibrateCameraImu(camera, calibration::ReadImu(job.log, before.imu_noise), before);
   if (!found.success) {
     throw std::runtime_error("not calibrated: " + found.reason + "; " + poses + " holds the camera's motion");
   }
-  std::printf("%s", CalibrationText(before, found).c_str());
-  WriteRig(
-      o->out, Calibrated(before, found), LoadRigName(job.rig),
-      RigComment(before, found, "From " + job.log + " and " + job.map + ", starting from " + job.rig + "."));
+  std::printf("%s", calibration::CalibrationText(before, found).c_str());
+  WriteRig(o->out, calibration::Calibrated(before, found), LoadRigName(job.rig),
+           calibration::RigComment(
+               before, found, "From " + job.log + " and " + job.map + ", starting from " + job.rig + "."));
   const SE3 start = camera.front().pose * found.values.T_body_camera.Inverse();
-  const std::string advice = TiltAdvice(found, job.map, start);
+  const std::string advice = calibration::TiltAdvice(found, job.map, start);
   std::printf("%s%srig file: %s\n", advice.empty() ? "" : "\n", advice.c_str(), o->out.c_str());
 }
 
@@ -93,4 +94,4 @@ void AddCalibrateCommand(CLI::App* app) {
   calibrate->callback([o] { Calibrate(o.get()); });
 }
 
-}  // namespace evit
+}  // namespace evit::commands

@@ -6,7 +6,7 @@ class App;
 
 /// The subcommands of `evit`. Each adds itself to the program; its work runs when it is chosen on the command
 /// line.
-namespace evit {
+namespace evit::commands {
 
 void AddImportCommand(CLI::App* app);
 void AddMapCommand(CLI::App* app);
@@ -20,4 +20,4 @@ void AddUpCommand(CLI::App* app);
 /// ps, start, stop, restart, logs.
 void AddProcmanCommands(CLI::App* app);
 
-}  // namespace evit
+}  // namespace evit::commands

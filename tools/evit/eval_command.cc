@@ -9,7 +9,7 @@
 #include "tools/evit/commands.h"
 #include "tools/pictures/consistency_plot.h"
 
-namespace evit {
+namespace evit::commands {
 namespace {
 
 constexpr double kDegrees = 57.295779513082323;
@@ -70,7 +70,7 @@ void Evaluate(const EvalOptions& o) {
       throw std::runtime_error(o.covariance + " has no covariance for the poses of " + o.estimate +
                                ": are they of the same run?");
     }
-    if (!o.plot.empty()) PlotConsistency(o.plot, ConsistencyText(consistency), consistency);
+    if (!o.plot.empty()) pictures::PlotConsistency(o.plot, ConsistencyText(consistency), consistency);
   }
   if (o.json) {
     nlohmann::json out{{"truth", o.truth}, {"estimate", o.estimate}, {"coverage", whole.coverage}};
@@ -120,4 +120,4 @@ void AddEvalCommand(CLI::App* app) {
   eval->callback([o] { Evaluate(*o); });
 }
 
-}  // namespace evit
+}  // namespace evit::commands

@@ -4,16 +4,16 @@
 #include "tools/evit/import_options.h"
 #include "tools/formats/bag/bag_import.h"
 
-namespace evit {
+namespace evit::commands {
 
 void AddImportBag(CLI::App* import) {
   struct Options {
     ImportOptions shared;
-    BagImport job;
+    formats::BagImport job;
     std::string rig;
   };
   auto o = std::make_shared<Options>();
-  BagImport& job = o->job;
+  formats::BagImport& job = o->job;
   CLI::App* bag =
       import->add_subcommand("bag", "ROS 1 bags: dvs_msgs or prophesee_event_msgs, Imu, PoseStamped");
   bag->add_option("FILE", job.files, "Bags of one recording; several are merged by time")->required();
@@ -32,8 +32,8 @@ void AddImportBag(CLI::App* import) {
     o->shared.Apply(&o->job);
     o->job.rig = LoadRig(o->rig);
     RunImport(o->job.files.front(), o->job, "geometry_msgs/PoseStamped",
-              [&](const auto& progress) { return ImportBag(o->job, progress); });
+              [&](const auto& progress) { return formats::ImportBag(o->job, progress); });
   });
 }
 
-}  // namespace evit
+}  // namespace evit::commands

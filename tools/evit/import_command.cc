@@ -5,11 +5,11 @@
 #include "tools/evit/options.h"
 #include "tools/terminal/progress_bar.h"
 
-namespace evit {
+namespace evit::commands {
 namespace {
 
-void PrintDropped(const DropCounts& dropped, const char* what) {
-  const std::string text = DropText(dropped, what);
+void PrintDropped(const formats::DropCounts& dropped, const char* what) {
+  const std::string text = formats::DropText(dropped, what);
   if (!text.empty()) std::printf("%s\n", text.c_str());
 }
 
@@ -23,17 +23,17 @@ void ImportOptions::AddTo(CLI::App* source) {
   source->add_option("--seconds", seconds, "A:B, take only this part (seconds after the first event)");
 }
 
-void ImportOptions::Apply(ImportTarget* target) const {
+void ImportOptions::Apply(formats::ImportTarget* target) const {
   target->out = out;
   if (!transform.empty()) target->T_map_world = ParseTransform("--T-map-world", transform);
   if (!seconds.empty()) target->seconds = ParseSeconds(seconds);
 }
 
-void RunImport(const std::string& label, const ImportTarget& target, const std::string& no_truth,
-               const std::function<ImportSummary(const std::function<void(double)>&)>& work) {
-  ImportSummary s;
+void RunImport(const std::string& label, const formats::ImportTarget& target, const std::string& no_truth,
+               const std::function<formats::ImportSummary(const std::function<void(double)>&)>& work) {
+  formats::ImportSummary s;
   {
-    ProgressBar bar("importing " + label);
+    terminal::ProgressBar bar("importing " + label);
     s = work([&](double share) { bar.Show(share); });
   }
   std::printf(
@@ -55,4 +55,4 @@ void AddImportCommand(CLI::App* app) {
   AddImportBag(import);
 }
 
-}  // namespace evit
+}  // namespace evit::commands

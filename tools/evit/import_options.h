@@ -7,7 +7,7 @@
 #include "tools/formats/import/import_log.h"
 
 /// What the subcommands of `evit import`, one per source, share.
-namespace evit {
+namespace evit::commands {
 
 void AddImportVector(CLI::App* import);
 void AddImportRpg(CLI::App* import);
@@ -18,12 +18,12 @@ struct ImportOptions {
 
   void AddTo(CLI::App* source);
   /// Throws std::runtime_error naming the option.
-  void Apply(ImportTarget* target) const;
+  void Apply(formats::ImportTarget* target) const;
 };
 
 /// Does the work under a progress bar, then prints the summary. `no_truth`: where truth was looked for in
 /// vain.
-void RunImport(const std::string& label, const ImportTarget& target, const std::string& no_truth,
-               const std::function<ImportSummary(const std::function<void(double)>&)>& work);
+void RunImport(const std::string& label, const formats::ImportTarget& target, const std::string& no_truth,
+               const std::function<formats::ImportSummary(const std::function<void(double)>&)>& work);
 
-}  // namespace evit
+}  // namespace evit::commands

@@ -8,10 +8,10 @@
 #include "tools/evit/options.h"
 #include "tools/formats/rpg/rpg_import.h"
 
-namespace evit {
+namespace evit::commands {
 namespace {
 
-void ParseSize(const std::string& text, RpgImport* job) {
+void ParseSize(const std::string& text, formats::RpgImport* job) {
   char rest = 0;
   const int n = std::sscanf(text.c_str(), "%dx%d%c", &job->width, &job->height, &rest);
   const auto possible = [](int pixels) { return pixels >= 16 && pixels <= 8192; };
@@ -24,11 +24,11 @@ void ParseSize(const std::string& text, RpgImport* job) {
 void AddImportRpg(CLI::App* import) {
   struct Options {
     ImportOptions shared;
-    RpgImport job;
+    formats::RpgImport job;
     std::string size, pose;
   };
   auto o = std::make_shared<Options>();
-  RpgImport& job = o->job;
+  formats::RpgImport& job = o->job;
   CLI::App* rpg = import->add_subcommand("rpg", "A folder in the text format of RPG's event camera dataset");
   rpg->add_option("DIR", job.folder,
                   "Folder with events.txt, imu.txt, groundtruth.txt (if known), calib.txt (for --rig-out)")
@@ -57,8 +57,8 @@ void AddImportRpg(CLI::App* import) {
     if (!o->size.empty()) ParseSize(o->size, &o->job);
     if (!o->pose.empty()) o->job.T_body_camera = ParsePose("--t-body-camera", o->pose);
     RunImport(o->job.folder, o->job, "groundtruth.txt",
-              [&](const auto& progress) { return ImportRpg(o->job, progress); });
+              [&](const auto& progress) { return formats::ImportRpg(o->job, progress); });
   });
 }
 
-}  // namespace evit
+}  // namespace evit::commands

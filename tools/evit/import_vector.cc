@@ -5,7 +5,7 @@
 #include "tools/evit/options.h"
 #include "tools/formats/vector/sequence_import.h"
 
-namespace evit {
+namespace evit::commands {
 
 void AddImportVector(CLI::App* import) {
   struct Options {
@@ -20,14 +20,14 @@ void AddImportVector(CLI::App* import) {
   vector->add_option("--rig", o->rig, "Calibration (default: config/vector/rig.textproto)");
   o->shared.AddTo(vector);
   vector->callback([o] {
-    SequenceImport job;
+    formats::SequenceImport job;
     o->shared.Apply(&job);
     job.folder = o->folder;
     job.name = o->name;
     job.rig = LoadRig(o->rig.empty() ? ConfigFile("vector/rig.textproto") : o->rig);
     RunImport(job.name, job, job.name + "1.synced.gt.txt",
-              [&](const auto& progress) { return ImportSequence(job, progress); });
+              [&](const auto& progress) { return formats::ImportSequence(job, progress); });
   });
 }
 
-}  // namespace evit
+}  // namespace evit::commands

@@ -26,15 +26,15 @@ int Main(int argc, char** argv) {
       "EVIT: tracks an event camera and an IMU in 6-DoF against a semi-dense map.\n"
       "A first run: evit simulate, evit import vector, evit run; see README.md."};
   app.require_subcommand(1);
-  evit::AddImportCommand(&app);
-  evit::AddMapCommand(&app);
-  evit::AddSimulateCommand(&app);
-  evit::AddRunCommand(&app);
-  evit::AddEvalCommand(&app);
-  evit::AddCalibrateCommand(&app);
-  evit::AddPaperCommand(&app);
-  evit::AddUpCommand(&app);
-  evit::AddProcmanCommands(&app);
+  evit::commands::AddImportCommand(&app);
+  evit::commands::AddMapCommand(&app);
+  evit::commands::AddSimulateCommand(&app);
+  evit::commands::AddRunCommand(&app);
+  evit::commands::AddEvalCommand(&app);
+  evit::commands::AddCalibrateCommand(&app);
+  evit::commands::AddPaperCommand(&app);
+  evit::commands::AddUpCommand(&app);
+  evit::commands::AddProcmanCommands(&app);
   try {
     RequireKnownCommand(app, argc, argv);
     app.parse(argc, argv);

@@ -12,7 +12,7 @@
 #include "tools/evit/options.h"
 #include "tools/pictures/top_view.h"
 
-namespace evit {
+namespace evit::commands {
 namespace {
 
 // One point, the first, per cell of `size` metres.
@@ -90,10 +90,10 @@ void AddMapCommand(CLI::App* app) {
   info->add_option("--png", o->png, "Draw it as seen from above, coloured by height");
   info->callback([o] {
     const LoadedMap loaded = LoadMap(o->in);
-    if (!o->png.empty()) WriteTopView(o->png, loaded.map);
+    if (!o->png.empty()) pictures::WriteTopView(o->png, loaded.map);
     PrintSummary(o->in, loaded, o->json);
     RequireMetres(Summarize(loaded.map), o->in);
   });
 }
 
-}  // namespace evit
+}  // namespace evit::commands

@@ -11,7 +11,7 @@
 
 #include "tests/helpers/map_files.h"
 
-namespace evit {
+namespace evit::commands {
 namespace {
 
 using test::TemporaryFile;
@@ -123,4 +123,4 @@ TEST(MapCommandTest, APhotometricMapThatCannotBeWrittenIsSaidBeforeTheWork) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::commands

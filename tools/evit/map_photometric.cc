@@ -9,7 +9,7 @@
 #include "tools/formats/rgbd/rgbd_folder.h"
 #include "tools/terminal/progress_bar.h"
 
-namespace evit {
+namespace evit::commands {
 namespace {
 
 // Said before minutes of fusing, not after. Empty: fine.
@@ -43,10 +43,10 @@ void AddMapPhotometric(CLI::App* map) {
       ->check(CLI::PositiveNumber);
   command->add_option("--every", o->every, "Use every Nth image")->check(CLI::PositiveNumber);
   command->callback([o] {
-    const RgbdFolder folder(o->folder);
+    const formats::RgbdFolder folder(o->folder);
     RgbdFusion fusion(o->fusion);
     {
-      ProgressBar bar("fusing");
+      terminal::ProgressBar bar("fusing");
       for (std::size_t k = 0; k < folder.size(); k += o->every) {
         bar.Show(static_cast<double>(k) / static_cast<double>(folder.size()),
                  std::to_string(fusion.size()) + " points");
@@ -66,4 +66,4 @@ void AddMapPhotometric(CLI::App* map) {
   });
 }
 
-}  // namespace evit
+}  // namespace evit::commands

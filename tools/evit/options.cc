@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace evit {
+namespace evit::commands {
 
 std::pair<double, double> ParseSeconds(const std::string& text) {
   double a = 0, b = 0;
@@ -49,4 +49,4 @@ std::string ConfigFile(const std::string& name) {
   return std::string(EVIT_PROJECT_DIR) + "/config/" + name;
 }
 
-}  // namespace evit
+}  // namespace evit::commands

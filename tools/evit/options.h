@@ -6,7 +6,7 @@
 #include "common/geometry/se3.h"
 
 /// Forms of option values that several subcommands share. Each throws std::runtime_error naming the option.
-namespace evit {
+namespace evit::commands {
 
 /// "A:B" in seconds, A < B.
 std::pair<double, double> ParseSeconds(const std::string& text);
@@ -20,4 +20,4 @@ std::string CommandLineOfThis();
 /// A file below the project's config/ folder: where this program was built from, or beside its installation.
 std::string ConfigFile(const std::string& name);
 
-}  // namespace evit
+}  // namespace evit::commands

@@ -7,7 +7,7 @@
 #include "tools/evit/options.h"
 #include "tools/paper/paper.h"
 
-namespace evit {
+namespace evit::commands {
 namespace {
 
 // Real motions for simulations: EVIT_SHARED_DATA, or the folder beside the source tree.
@@ -21,7 +21,7 @@ std::string SharedData() {
 }  // namespace
 
 void AddPaperCommand(CLI::App* app) {
-  auto o = std::make_shared<PaperOptions>();
+  auto o = std::make_shared<paper::PaperOptions>();
   CLI::App* paper = app->add_subcommand("paper", "The paper's tables and figures, in one go");
   paper->add_option("--out", o->out, "Folder for the results; what it holds already is not done again")
       ->required();
@@ -49,9 +49,9 @@ void AddPaperCommand(CLI::App* app) {
     if (o->config.empty()) o->config = ConfigFile("paper.textproto");
     o->programs = std::filesystem::read_symlink("/proc/self/exe").parent_path().string();
     o->shared_data = SharedData();
-    const int code = MakePaper(*o, CommandLineOfThis(), EVIT_PROJECT_DIR);
+    const int code = paper::MakePaper(*o, CommandLineOfThis(), EVIT_PROJECT_DIR);
     if (code != 0) throw CLI::RuntimeError(code);
   });
 }
 
-}  // namespace evit
+}  // namespace evit::commands

@@ -9,7 +9,7 @@
 #include "tests/helpers/paper.h"
 #include "tools/paper/text_files.h"
 
-namespace evit {
+namespace evit::commands {
 namespace {
 
 using ::testing::HasSubstr;
@@ -30,9 +30,9 @@ TEST(PaperCommand, SimulatesTracksScoresAndDrawsAndThenHasNothingToDo) {
                                 " --out " + (folder / "out") + " >" + (folder / "said") + " 2>&1";
     return std::system(command.c_str());
   };
-  ASSERT_EQ(run(), 0) << ReadText(folder / "said");
-  EXPECT_THAT(ReadText(folder / "said"), HasSubstr("3 jobs done, 0 kept, 0 failed"));
-  const auto json = nlohmann::json::parse(ReadText(folder / "out/tables/normal.none.json"));
+  ASSERT_EQ(run(), 0) << paper::ReadText(folder / "said");
+  EXPECT_THAT(paper::ReadText(folder / "said"), HasSubstr("3 jobs done, 0 kept, 0 failed"));
+  const auto json = nlohmann::json::parse(paper::ReadText(folder / "out/tables/normal.none.json"));
   const auto& row = json.at("rows").at(0);
   EXPECT_EQ(row.at("100%").at("reached"), 1);
   EXPECT_LT(row.at("100%").at("position_cm").at("median").get<double>(), 2);
@@ -41,8 +41,8 @@ TEST(PaperCommand, SimulatesTracksScoresAndDrawsAndThenHasNothingToDo) {
     EXPECT_GT(std::filesystem::file_size(folder / ("out/figures/" + std::string(figure))), 10'000U) << figure;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "out"))
     EXPECT_NE(entry.path().extension(), ".hdf5") << "bulky and in the log already";
-  ASSERT_EQ(run(), 0) << ReadText(folder / "said");
-  EXPECT_THAT(ReadText(folder / "said"), HasSubstr("0 jobs done, 3 kept, 0 failed"));
+  ASSERT_EQ(run(), 0) << paper::ReadText(folder / "said");
+  EXPECT_THAT(paper::ReadText(folder / "said"), HasSubstr("0 jobs done, 3 kept, 0 failed"));
 }
 
 TEST(PaperCommand, SaysWhatIsWrongBeforeAnythingIsDone) {
@@ -50,9 +50,9 @@ TEST(PaperCommand, SaysWhatIsWrongBeforeAnythingIsDone) {
   const std::string command = EVIT_BIN_DIR "/evit paper --only nowhere --out " + (folder / "out") + " >" +
                               (folder / "said") + " 2>&1";
   EXPECT_NE(std::system(command.c_str()), 0);
-  EXPECT_THAT(ReadText(folder / "said"), HasSubstr("--only nowhere"));
+  EXPECT_THAT(paper::ReadText(folder / "said"), HasSubstr("--only nowhere"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::commands

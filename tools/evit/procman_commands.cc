@@ -15,7 +15,7 @@
 #include "tools/evit/commands.h"
 #include "tools/run/local_network.h"
 
-namespace evit {
+namespace evit::commands {
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(5);
@@ -24,8 +24,8 @@ constexpr auto kPatience = std::chrono::seconds(5);
 std::unique_ptr<Bus> OpenBusOfPipeline(const std::string& lcm_url) {
   const char* environment = std::getenv("LCM_DEFAULT_URL");
   const bool own_choice = lcm_url.empty() && (environment == nullptr || *environment == '\0');
-  const auto running = FindRunning();
-  if (own_choice && running) JoinNetworkOf(*running);
+  const auto running = run::FindRunning();
+  if (own_choice && running) run::JoinNetworkOf(*running);
   if (own_choice && !running) {
     throw std::runtime_error("neither `evit run` nor `evit up` is running here; another host's: --lcm-url");
   }
@@ -40,7 +40,7 @@ std::string Condition(const procman_lcm::cmd_status_t& status) {
 
 void Ps(const std::string& lcm_url) {
   const auto bus = OpenBusOfPipeline(lcm_url);
-  Sheriff sheriff(bus.get());
+  procman::Sheriff sheriff(bus.get());
   const auto& deputies = sheriff.Look(kPatience);
   if (deputies.empty()) {
     throw std::runtime_error("no deputy answers: is `evit run` or `evit up` running, on the same LCM URL?");
@@ -63,7 +63,7 @@ struct LogOptions {
 
 // The end of its log file, where the pipeline runs on this host.
 bool PrintLogFile(const LogOptions& o) {
-  const auto running = FindRunning();
+  const auto running = run::FindRunning();
   if (!running) return false;
   std::ifstream file(std::filesystem::path(running->logs) / (o.command + ".log"));
   if (!file) return false;
@@ -81,7 +81,7 @@ void Logs(const LogOptions& o) {
   const bool local = PrintLogFile(o);
   if (local && !o.follow) return;
   const auto bus = OpenBusOfPipeline(o.lcm_url);
-  Sheriff sheriff(bus.get());
+  procman::Sheriff sheriff(bus.get());
   bool known = false;
   for (const auto& [name, info] : sheriff.Look(kPatience)) {
     for (const auto& status : info.cmds) known = known || status.cmd.command_id == o.command;
@@ -99,7 +99,7 @@ void Logs(const LogOptions& o) {
   while (!signals.received()) bus->Poll(100);
 }
 
-void AddOrder(CLI::App* app, const char* name, const char* help, Sheriff::Order order) {
+void AddOrder(CLI::App* app, const char* name, const char* help, procman::Sheriff::Order order) {
   struct Options {
     std::string command, lcm_url;
   };
@@ -110,7 +110,7 @@ void AddOrder(CLI::App* app, const char* name, const char* help, Sheriff::Order 
   sub->callback([o, order] {
     const auto bus = OpenBusOfPipeline(o->lcm_url);
     // stop_time_allowed may pass before it has ended.
-    Sheriff(bus.get()).Give(order, o->command, std::chrono::seconds(15));
+    procman::Sheriff(bus.get()).Give(order, o->command, std::chrono::seconds(15));
   });
 }
 
@@ -122,9 +122,11 @@ void AddProcmanCommands(CLI::App* app) {
   ps->add_option("--lcm-url", *url, "Bus (default: that of the pipeline running here)");
   ps->callback([url] { Ps(*url); });
 
-  AddOrder(app, "start", "Start a command of a running pipeline (PM_ORDERS)", Sheriff::Order::kStart);
-  AddOrder(app, "stop", "Stop a command of a running pipeline (PM_ORDERS)", Sheriff::Order::kStop);
-  AddOrder(app, "restart", "Restart a command of a running pipeline (PM_ORDERS)", Sheriff::Order::kRestart);
+  AddOrder(app, "start", "Start a command of a running pipeline (PM_ORDERS)",
+           procman::Sheriff::Order::kStart);
+  AddOrder(app, "stop", "Stop a command of a running pipeline (PM_ORDERS)", procman::Sheriff::Order::kStop);
+  AddOrder(app, "restart", "Restart a command of a running pipeline (PM_ORDERS)",
+           procman::Sheriff::Order::kRestart);
 
   auto o = std::make_shared<LogOptions>();
   CLI::App* logs = app->add_subcommand("logs", "Show what a command of a running pipeline says (PM_OUTPUT)");
@@ -137,4 +139,4 @@ void AddProcmanCommands(CLI::App* app) {
   logs->callback([o] { Logs(*o); });
 }
 
-}  // namespace evit
+}  // namespace evit::commands

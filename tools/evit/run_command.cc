@@ -9,11 +9,11 @@
 #include "tools/evit/options.h"
 #include "tools/run/run.h"
 
-namespace evit {
+namespace evit::commands {
 
 void AddRunCommand(CLI::App* app) {
   struct Options {
-    RunJob job;
+    run::RunJob job;
     std::string pose, from, seconds;
     bool realtime = false, lossless = false;
   };
@@ -50,7 +50,7 @@ void AddRunCommand(CLI::App* app) {
   run->add_option("--prefix", o->job.prefix, "Prefix of all channels, so that several pipelines share a bus");
   run->footer("Exit code: 0 tracked to the end, 1 could not run, 2 LOST or never tracking, 130 interrupted.");
   run->callback([o] {
-    RunJob& job = o->job;
+    run::RunJob& job = o->job;
     if (o->pose.empty() && o->from.empty())
       throw std::runtime_error("--initial-pose or --initial-from is wanted");
     if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
@@ -61,9 +61,9 @@ void AddRunCommand(CLI::App* app) {
     job.lossless = !o->realtime;
     if (job.lossless && job.loops > 1) throw std::runtime_error("--loops needs --realtime");
     job.command = CommandLineOfThis();
-    const int code = Run(job);
+    const int code = run::Run(job);
     if (code != 0) throw CLI::RuntimeError(code);
   });
 }
 
-}  // namespace evit
+}  // namespace evit::commands

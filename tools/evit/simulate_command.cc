@@ -13,11 +13,11 @@
 #include "tools/simulation/builtin_motion.h"
 #include "tools/simulation/simulator.h"
 
-namespace evit {
+namespace evit::commands {
 namespace {
 
 struct Options {
-  SimulationSettings settings;
+  simulation::SimulationSettings settings;
   std::string rig_path, frame = "auto", seconds, lamp, dark, tremor, holes;
   std::string room = "furnished";
 };
@@ -28,26 +28,26 @@ bool ParseRange(const std::string& text, double* a, double* b) {
   return std::sscanf(text.c_str(), "%lf:%lf%c", a, b, &rest) == 2 && *a >= 0 && *b > *a;
 }
 
-bool ParseTremor(const std::string& text, Tremor* tremor) {
+bool ParseTremor(const std::string& text, simulation::Tremor* tremor) {
   char rest = 0;
   return std::sscanf(text.c_str(), "%lf:%lf:%lf%c", &tremor->hz, &tremor->mm, &tremor->deg, &rest) == 3;
 }
 
 const CLI::Validator kTremor(
     [](const std::string& text) {
-      Tremor tremor;
+      simulation::Tremor tremor;
       return ParseTremor(text, &tremor) ? std::string() : "'" + text + "': must be HZ:MM:DEG, e.g. 7:7:1.1";
     },
     "HZ:MM:DEG");
 
-bool ParseHoles(const std::string& text, MapHoles* holes) {
+bool ParseHoles(const std::string& text, simulation::MapHoles* holes) {
   char rest = 0;
   return std::sscanf(text.c_str(), "%lf:%lf%c", &holes->share, &holes->diameter_m, &rest) == 2;
 }
 
 const CLI::Validator kHoles(
     [](const std::string& text) {
-      MapHoles holes;
+      simulation::MapHoles holes;
       return ParseHoles(text, &holes) ? std::string() : "'" + text + "': must be SHARE:METRES, e.g. 0.5:0.6";
     },
     "SHARE:METRES");
@@ -82,10 +82,10 @@ void PrintProgress(double share) {
                share >= 1 ? "\n" : "");
 }
 
-void PrintSummary(const SimulationSettings& settings, const SimulationSummary& s) {
+void PrintSummary(const simulation::SimulationSettings& settings, const simulation::SimulationSummary& s) {
   std::printf("%s: %.2f s; %s; spline fits to %.2f mm, %.3f deg\n", s.name.c_str(), s.duration_s,
               s.motion.note.c_str(), 1e3 * s.motion.fit_rms_m, s.motion.fit_rms_deg);
-  const MotionSpeed& v = s.motion_speed;
+  const simulation::MotionSpeed& v = s.motion_speed;
   std::printf("camera %.2f m/s and %.2f rad/s mean, %.2f and %.2f at the 99th percentile\n", v.mean,
               v.turn_mean, v.p99, v.turn_p99);
   std::printf("image speed %.0f px/s mean, %.0f at most; depth %.2f m mean; %zu renders\n", s.speed.mean,
@@ -100,21 +100,21 @@ void PrintSummary(const SimulationSettings& settings, const SimulationSummary& s
 }
 
 void Run(Options* options) {
-  SimulationSettings& s = options->settings;
+  simulation::SimulationSettings& s = options->settings;
   const std::string rig_path = options->rig_path.empty() ? DefaultRig() : options->rig_path;
   const Rig rig = LoadRig(rig_path);
-  if (options->frame == "body") s.trajectory.frame = TrajectoryFrame::kBody;
-  if (options->frame == "marker-yup") s.trajectory.frame = TrajectoryFrame::kMarkerYUp;
+  if (options->frame == "body") s.trajectory.frame = simulation::TrajectoryFrame::kBody;
+  if (options->frame == "marker-yup") s.trajectory.frame = simulation::TrajectoryFrame::kMarkerYUp;
   if (!options->seconds.empty()) ParseRange(options->seconds, &s.trajectory.begin_s, &s.trajectory.end_s);
   if (!options->tremor.empty()) ParseTremor(options->tremor, &s.trajectory.tremor);
   if (!options->holes.empty()) ParseHoles(options->holes, &s.map_holes);
   if (!options->dark.empty()) ParseRange(options->dark, &s.dark_from_s, &s.dark_to_s);
-  s.room = options->room == "plain" ? RoomKind::kPlain : RoomKind::kFurnished;
+  s.room = options->room == "plain" ? simulation::RoomKind::kPlain : simulation::RoomKind::kFurnished;
   if (!options->lamp.empty()) ParseRange(options->lamp, &s.lamp_off_s, &s.lamp_on_s);
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  const SimulationSummary summary =
-      Simulate(s, rig, "simulated, from " + std::filesystem::path(rig_path).filename().string(),
-               terminal ? std::function<void(double)>(PrintProgress) : nullptr);
+  const simulation::SimulationSummary summary =
+      simulation::Simulate(s, rig, "simulated, from " + std::filesystem::path(rig_path).filename().string(),
+                           terminal ? std::function<void(double)>(PrintProgress) : nullptr);
   if (s.map_only) {
     std::printf("%s: map points %zu of %d views, written to %s\n", summary.name.c_str(), summary.n_map_points,
                 summary.n_map_views, s.out.c_str());
@@ -129,10 +129,10 @@ void AddSimulateCommand(CLI::App* app) {
   CLI::App* command =
       app->add_subcommand("simulate", "Simulate an event camera and an IMU in a furnished room");
   const auto options = std::make_shared<Options>();
-  SimulationSettings& s = options->settings;
+  simulation::SimulationSettings& s = options->settings;
   s.threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 64);
   command->option_defaults()->always_capture_default();
-  command->add_option("--trajectory", s.trajectory.source, "TUM file, or " + BuiltinMotionNames())
+  command->add_option("--trajectory", s.trajectory.source, "TUM file, or " + simulation::BuiltinMotionNames())
       ->required();
   command->add_option("--scene", s.scene_seed, "Seed of the room");
   command->add_option("--out", s.out, "Folder to write")->required();
@@ -224,4 +224,4 @@ void AddSimulateCommand(CLI::App* app) {
   });
 }
 
-}  // namespace evit
+}  // namespace evit::commands

@@ -16,7 +16,7 @@
 #include "tools/evit/options.h"
 #include "tools/run/local_network.h"
 
-namespace evit {
+namespace evit::commands {
 namespace {
 
 struct UpOptions {
@@ -24,10 +24,10 @@ struct UpOptions {
 };
 
 // The commands of one deputy; where the file knows only one, its.
-std::vector<ProcmanCommand> CommandsOf(const Deployment& deployment, const UpOptions& o,
-                                       std::string* deputy) {
+std::vector<procman::ProcmanCommand> CommandsOf(const procman::Deployment& deployment, const UpOptions& o,
+                                                std::string* deputy) {
   std::set<std::string> deputies;
-  for (const ProcmanCommand& command : deployment.commands) deputies.insert(command.deputy);
+  for (const procman::ProcmanCommand& command : deployment.commands) deputies.insert(command.deputy);
   std::string known;
   for (const std::string& name : deputies) known += (known.empty() ? "" : ", ") + name;
   if (o.deputy.empty() && deputies.size() != 1) {
@@ -38,8 +38,8 @@ std::vector<ProcmanCommand> CommandsOf(const Deployment& deployment, const UpOpt
   if (deputies.count(*deputy) == 0) {
     throw std::runtime_error(o.file + " has no command of deputy " + *deputy + "; it has those of: " + known);
   }
-  std::vector<ProcmanCommand> commands;
-  for (const ProcmanCommand& command : deployment.commands) {
+  std::vector<procman::ProcmanCommand> commands;
+  for (const procman::ProcmanCommand& command : deployment.commands) {
     if (command.deputy == *deputy) commands.push_back(command);
   }
   return commands;
@@ -57,34 +57,34 @@ void SetDefaults(const std::filesystem::path& logs) {
 }
 
 void Up(const UpOptions& o) {
-  const Deployment deployment = LoadDeployment(o.file);
+  const procman::Deployment deployment = procman::LoadDeployment(o.file);
   std::string deputy_id;
-  const std::vector<ProcmanCommand> commands = CommandsOf(deployment, o, &deputy_id);
+  const std::vector<procman::ProcmanCommand> commands = CommandsOf(deployment, o, &deputy_id);
   std::filesystem::create_directories(o.logs);
   SetDefaults(std::filesystem::absolute(o.logs));
 
   const std::string url = ResolveLcmUrl(o.lcm_url);
   const char* asked = std::getenv("LCM_DEFAULT_URL");
-  std::unique_ptr<RunFile> run_file;
+  std::unique_ptr<run::RunFile> run_file;
   if (o.lcm_url.empty() && (asked == nullptr || *asked == '\0')) {
-    EnsureLocalMulticast(url);
-    run_file = std::make_unique<RunFile>(o.logs);
+    run::EnsureLocalMulticast(url);
+    run_file = std::make_unique<run::RunFile>(o.logs);
   }
   setenv("LCM_DEFAULT_URL", url.c_str(), 1);  // for the commands
   const StopSignals signals;
 
   const auto bus = OpenLcmBus(url);
   // What the commands say is shown as it comes over the bus, like in any sheriff.
-  bus->Subscribe(kPmOutput, [&](const std::string&, const std::uint8_t* data, std::size_t size) {
+  bus->Subscribe(procman::kPmOutput, [&](const std::string&, const std::uint8_t* data, std::size_t size) {
     procman_lcm::output_t message;
-    if (!DecodeProcman(data, size, &message) || message.deputy_name != deputy_id) return;
+    if (!procman::DecodeProcman(data, size, &message) || message.deputy_name != deputy_id) return;
     std::printf("%s: %s", message.command_id.empty() ? deputy_id.c_str() : message.command_id.c_str(),
                 message.text.c_str());
     std::fflush(stdout);
   });
   const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  Deputy deputy(bus.get(), deputy_id, commands, {programs, o.logs});
-  ScriptRunner runner(deployment, &deputy.supervisor());
+  procman::Deputy deputy(bus.get(), deputy_id, commands, {programs, o.logs});
+  procman::ScriptRunner runner(deployment, &deputy.supervisor());
   runner.Run(o.script);
   bool running = false;
   while (!signals.received()) {
@@ -121,4 +121,4 @@ void AddUpCommand(CLI::App* app) {
   up->callback([o] { Up(*o); });
 }
 
-}  // namespace evit
+}  // namespace evit::commands

@@ -12,7 +12,7 @@
 #include "tools/paper/trajectory_figure.h"
 #include "tools/paper/window_figure.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 // The figures' recording; throws where there is none.
@@ -91,4 +91,4 @@ std::vector<Figure> DrawFigures(const std::string& folder, const PaperPlan& plan
   return figures;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

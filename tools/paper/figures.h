@@ -5,7 +5,7 @@
 
 #include "tools/paper/plan.h"
 
-namespace evit {
+namespace evit::paper {
 
 struct Figure {
   std::string file;     // in the figures' folder; empty: could not be drawn
@@ -17,4 +17,4 @@ struct Figure {
 /// cannot be written.
 std::vector<Figure> DrawFigures(const std::string& folder, const PaperPlan& plan);
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -13,7 +13,7 @@
 #include "tools/paper/trajectory_figure.h"
 #include "tools/paper/window_figure.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 constexpr Utime kBegin = 1'642'661'138'000'000, kInterval = 20'000;
@@ -177,4 +177,4 @@ TEST(Figures, ThatCannotBeDrawnSayWhy) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::paper

@@ -12,7 +12,7 @@
 #include "tools/paper/table.h"
 #include "tools/paper/text_files.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 // The value of the first line "name ... : value".
@@ -56,7 +56,7 @@ void AppendConditions(const PaperPlan& plan, const PaperResults& results, std::o
 
 std::string DescribeCommit(const std::string& source_tree) {
   const std::string command =
-      JoinCommandLine({"git", "-C", source_tree, "describe", "--always", "--dirty", "--tags"}) +
+      procman::JoinCommandLine({"git", "-C", source_tree, "describe", "--always", "--dirty", "--tags"}) +
       " 2>/dev/null";
   std::string text;
   if (FILE* pipe = popen(command.c_str(), "r")) {
@@ -122,4 +122,4 @@ std::string IndexText(const PaperPlan& plan, const PaperResults& results, const 
   return out.str();
 }
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -7,7 +7,7 @@
 #include "tools/paper/job.h"
 #include "tools/paper/plan.h"
 
-namespace evit {
+namespace evit::paper {
 
 /// What index.md says besides tables and figures.
 struct IndexFacts {
@@ -26,4 +26,4 @@ std::string DescribeMachine();
 std::string IndexText(const PaperPlan& plan, const PaperResults& results, const std::vector<Figure>& figures,
                       const IndexFacts& facts);
 
-}  // namespace evit
+}  // namespace evit::paper

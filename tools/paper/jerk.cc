@@ -1,6 +1,6 @@
 #include "tools/paper/jerk.h"
 
-namespace evit {
+namespace evit::paper {
 
 Utime MostJerky(const Trajectory& trajectory, double before, double after) {
   constexpr Utime kStep = 25'000;  // us: about a keyframe's interval
@@ -19,4 +19,4 @@ Utime MostJerky(const Trajectory& trajectory, double before, double after) {
   return best;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

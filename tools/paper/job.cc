@@ -12,7 +12,7 @@
 #include "procman/managed_process.h"
 #include "tools/paper/text_files.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 constexpr char kKeyFile[] = "/key.txt";
@@ -57,14 +57,14 @@ class Worker {
       MarkDone(*job_);
       return State::kDone;
     }
-    ProcmanCommand command;
+    procman::ProcmanCommand command;
     const auto& words = commands_[next_];
     command.id = words.size() > 1 ? words[1] : "program";
     if (command.id.find_first_of("/-") != std::string::npos) command.id = "program";
-    command.exec = JoinCommandLine(words);
+    command.exec = procman::JoinCommandLine(words);
     command.stop_time_allowed = 5;
-    process_ = std::make_unique<ManagedProcess>(
-        command, ManagedProcess::Places{programs_, job_->folder},
+    process_ = std::make_unique<procman::ManagedProcess>(
+        command, procman::ManagedProcess::Places{programs_, job_->folder},
         [this](const std::string&, const std::string& text) { share_ = std::max(share_, ShareIn(text)); });
     process_->Start();
     return State::kRunning;
@@ -97,7 +97,7 @@ class Worker {
   PaperJob::Commands commands_;
   std::size_t next_ = 0;
   double share_ = 0;
-  std::unique_ptr<ManagedProcess> process_;
+  std::unique_ptr<procman::ManagedProcess> process_;
 };
 
 class Schedule {
@@ -224,4 +224,4 @@ JobsOutcome RunJobs(const std::vector<PaperJob>& jobs, int parallel, const std::
   return outcome;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace evit {
+namespace evit::paper {
 
 /// A piece of work whose result is a folder: programs run one after the other. It is done once, and again
 /// only when its key changes.
@@ -43,4 +43,4 @@ JobsOutcome RunJobs(const std::vector<PaperJob>& jobs, int parallel, const std::
                     const std::function<void(double, const std::string&)>& show,
                     const std::function<bool()>& interrupted);
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -8,7 +8,7 @@
 #include "tests/helpers/paper.h"
 #include "tools/paper/text_files.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 using ::testing::HasSubstr;
@@ -111,4 +111,4 @@ TEST_F(Jobs, InterruptedLeaveWhatIsFinishedAndNothingHalf) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::paper

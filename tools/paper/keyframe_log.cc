@@ -4,7 +4,7 @@
 
 #include "common/bus/codec.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 bool EndsWith(const std::string& text, const std::string& end) {
@@ -90,4 +90,4 @@ double MeanPixelDistance(const Rig& rig, const std::vector<Eigen::Vector3f>& poi
   return count == 0 ? 0 : sum / count;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

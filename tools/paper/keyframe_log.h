@@ -10,7 +10,7 @@
 #include "common/tracking/state.h"
 #include "evit/window_state_t.hpp"
 
-namespace evit {
+namespace evit::paper {
 
 /// A keyframe as it was recorded.
 struct RecordedKeyframe {
@@ -52,4 +52,4 @@ SE3 PredictFrom(const window_state_t& before, const RecordedKeyframe& keyframe, 
 double MeanPixelDistance(const Rig& rig, const std::vector<Eigen::Vector3f>& points, const SE3& T_map_body_a,
                          const SE3& T_map_body_b);
 
-}  // namespace evit
+}  // namespace evit::paper

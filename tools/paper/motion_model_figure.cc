@@ -7,7 +7,7 @@
 #include "tools/paper/surface_picture.h"
 #include "tools/pictures/chart.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 const cv::Scalar kPoints(40, 40, 230);  // BGR
@@ -52,7 +52,7 @@ void DrawMotionModels(const std::string& path, const std::string& title, const K
   const int width = 720, height = static_cast<int>(zoom * instant.keyframe.height), gap = 20, caption = 40,
             top = 50;
   cv::Mat image(top + 2 * (height + caption), 2 * width + 3 * gap, CV_8UC3, cv::Scalar(255, 255, 255));
-  DrawText(&image, title, {image.cols / 2, 34}, 0.8, Anchor::kCenter, {20, 20, 20}, 2);
+  pictures::DrawText(&image, title, {image.cols / 2, 34}, 0.8, pictures::Anchor::kCenter, {20, 20, 20}, 2);
   const char* names[] = {"zeroth-order: previous pose", "first-order: constant velocity", "second-order: IMU",
                          "after optimisation"};
   for (int k = 0; k < 4; ++k) {
@@ -68,9 +68,10 @@ void DrawMotionModels(const std::string& path, const std::string& title, const K
       std::snprintf(text, sizeof text, "%s, %.1f px off", names[k],
                     MeanPixelDistance(rig, points, instant.found, pose));
     }
-    DrawText(&image, text, {where.x + width / 2, where.y + height + 26}, 0.65, Anchor::kCenter);
+    pictures::DrawText(&image, text, {where.x + width / 2, where.y + height + 26}, 0.65,
+                       pictures::Anchor::kCenter);
   }
   if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
 }
 
-}  // namespace evit
+}  // namespace evit::paper

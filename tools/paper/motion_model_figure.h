@@ -6,7 +6,7 @@
 #include "common/map/visibility.h"
 #include "tools/paper/keyframe_log.h"
 
-namespace evit {
+namespace evit::paper {
 
 /// The paper's Fig. motion_model: a keyframe's time surface with the map projected onto it from where each
 /// motion model expects the camera, and from where the window then found it. Of all keyframes recorded it
@@ -15,4 +15,4 @@ namespace evit {
 void DrawMotionModels(const std::string& path, const std::string& title, const KeyframeLog& log,
                       const Rig& rig, const MapIndex& map);
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -11,7 +11,7 @@
 #include "tools/paper/text_files.h"
 #include "tools/terminal/progress_bar.h"
 
-namespace evit {
+namespace evit::paper {
 
 int MakePaper(const PaperOptions& options, const std::string& command, const std::string& source_tree) {
   const auto begin = std::chrono::steady_clock::now();
@@ -21,7 +21,7 @@ int MakePaper(const PaperOptions& options, const std::string& command, const std
 
   IndexFacts facts;
   {
-    ProgressBar bar("paper");
+    terminal::ProgressBar bar("paper");
     facts.outcome = RunJobs(
         JobsOf(plan), options.jobs, options.programs,
         [&](double share, const std::string& note) { bar.Show(share, note); },
@@ -49,4 +49,4 @@ int MakePaper(const PaperOptions& options, const std::string& command, const std
   return facts.outcome.failures.empty() ? 0 : 1;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -4,7 +4,7 @@
 
 #include "tools/paper/plan.h"
 
-namespace evit {
+namespace evit::paper {
 
 /// Makes the paper's tables and figures in options.out: simulates or imports what is missing, runs every
 /// method, and writes tables/, figures/ and index.md from everything that is there. `command` and
@@ -12,4 +12,4 @@ namespace evit {
 /// interrupted. Throws std::runtime_error.
 int MakePaper(const PaperOptions& options, const std::string& command, const std::string& source_tree);
 
-}  // namespace evit
+}  // namespace evit::paper

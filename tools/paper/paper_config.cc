@@ -10,7 +10,7 @@
 #include "common/config/config.h"
 #include "common/config/text_file.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 void Require(bool condition, const std::string& path, const std::string& what) {
@@ -120,4 +120,4 @@ std::string TrackerText(const paper::Method& method) {
   return text;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

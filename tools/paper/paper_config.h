@@ -4,7 +4,7 @@
 
 #include "tools/paper/paper.pb.h"
 
-namespace evit {
+namespace evit::paper {
 
 /// Reads config/paper.textproto. Paths to tracker settings and rig are made absolute (they are beside the
 /// file). Throws ConfigError naming file, key and remedy: unknown or missing key, an id or a sequence that
@@ -20,4 +20,4 @@ bool IsPhotometric(const paper::Method& method);
 /// The tracker settings of one method: its file with the changes asked for, as text. Throws ConfigError.
 std::string TrackerText(const paper::Method& method);
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -7,7 +7,7 @@
 #include "tests/helpers/paper.h"
 #include "tools/paper/text_files.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 using ::testing::AllOf;
@@ -78,4 +78,4 @@ TEST_F(PaperConfig, MethodsChangeOnlyWhatTheySay) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::paper

@@ -10,7 +10,7 @@
 #include "tools/paper/selection.h"
 #include "tools/paper/text_files.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 constexpr double kBefore = 3.0, kAfter = 0.7;  // s of the figures' run around its most jerky moment
@@ -169,4 +169,4 @@ PaperResults CollectResults(const PaperPlan& plan) {
   return results;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -7,7 +7,7 @@
 #include "tools/paper/recording.h"
 #include "tools/paper/results.h"
 
-namespace evit {
+namespace evit::paper {
 
 struct PaperOptions {
   std::string config;             // config/paper.textproto
@@ -53,4 +53,4 @@ PaperResults CollectResults(const PaperPlan& plan);
 /// Folder names inside a run's: what its keyframes are recorded in.
 inline constexpr char kKeyframeLog[] = "keyframes.lcmlog";
 
-}  // namespace evit
+}  // namespace evit::paper

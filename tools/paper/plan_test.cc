@@ -9,7 +9,7 @@
 #include "tools/paper/index.h"
 #include "tools/paper/selection.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 using ::testing::AllOf;
@@ -166,4 +166,4 @@ TEST_F(Plan, IndexSaysWhatIsThereAndHowItWasMade) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::paper

@@ -3,7 +3,7 @@
 #include "tools/paper/library_ids.h"  // made by the build
 #include "tools/paper/text_files.h"
 
-namespace evit {
+namespace evit::paper {
 
 std::string RecordingProgramId() { return kRecordingLibraries; }
 
@@ -16,4 +16,4 @@ std::string TrackingProgramId(const std::string& programs) {
   return HexText(HashOf(id));
 }
 
-}  // namespace evit
+}  // namespace evit::paper

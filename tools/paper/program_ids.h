@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace evit {
+namespace evit::paper {
 
 /// Tells one build of the code that makes recordings (simulator, imports) from another: changes of it, and of
 /// nothing else, make recordings anew.
@@ -14,4 +14,4 @@ std::string PhotometricProgramId();
 /// The same of the code that tracks: the services beside `programs`/evit, and what runs them.
 std::string TrackingProgramId(const std::string& programs);
 
-}  // namespace evit
+}  // namespace evit::paper

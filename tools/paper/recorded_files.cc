@@ -4,7 +4,7 @@
 
 #include "tools/paper/recording.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 namespace fs = std::filesystem;
@@ -84,4 +84,4 @@ std::optional<RecordedFiles> FindRecorded(const std::string& folder, const paper
   return files;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

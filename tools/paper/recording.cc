@@ -7,7 +7,7 @@
 #include "tools/paper/program_ids.h"
 #include "tools/paper/text_files.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,7 +43,7 @@ PaperJob PhotometricJob(const Recording& recording, const std::string& images) {
   return job;
 }
 
-Recording Simulated(const paper::Paper& config, const paper::Sequence& sequence,
+Recording SimulatedRecording(const paper::Paper& config, const paper::Sequence& sequence,
                     const RecordingOptions& options, int seed) {
   Recording r;
   r.sequence = &sequence;
@@ -152,8 +152,8 @@ std::vector<Recording> RecordingsOf(const paper::Paper& config, const paper::Seq
       return {Recorded(config, sequence, options, *files)};
   }
   std::vector<Recording> all;
-  for (int seed = 1; seed <= options.seeds; ++seed) all.push_back(Simulated(config, sequence, options, seed));
+  for (int seed = 1; seed <= options.seeds; ++seed) all.push_back(SimulatedRecording(config, sequence, options, seed));
   return all;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

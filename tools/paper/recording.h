@@ -7,7 +7,7 @@
 #include "tools/paper/job.h"
 #include "tools/paper/paper_config.h"
 
-namespace evit {
+namespace evit::paper {
 
 /// One sequence to track, as it will lie on disk: recorded, or simulated in one of several rooms.
 struct Recording {
@@ -47,4 +47,4 @@ struct RecordedFiles {
 /// Nothing where the sequence is not below `folder` (in it, or in a folder of the sequence's name).
 std::optional<RecordedFiles> FindRecorded(const std::string& folder, const paper::Sequence& sequence);
 
-}  // namespace evit
+}  // namespace evit::paper

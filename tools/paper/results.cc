@@ -1,6 +1,6 @@
 #include "tools/paper/results.h"
 
-namespace evit {
+namespace evit::paper {
 
 const char* TableId(PaperTable table) {
   switch (table) {
@@ -37,4 +37,4 @@ std::vector<TableRow> RowsOf(const paper::Paper& config, const PaperResults& res
   return rows;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

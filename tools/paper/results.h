@@ -8,7 +8,7 @@
 #include "tools/paper/paper_config.h"
 #include "tools/paper/score.h"
 
-namespace evit {
+namespace evit::paper {
 
 /// Every run that there is a result of.
 struct PaperResults {
@@ -41,4 +41,4 @@ struct TableRow {
 /// Grouped by sequence. The pointers are into both arguments.
 std::vector<TableRow> RowsOf(const paper::Paper& config, const PaperResults& results, PaperTable table);
 
-}  // namespace evit
+}  // namespace evit::paper

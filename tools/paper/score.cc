@@ -10,7 +10,7 @@
 
 #include "tools/run/report.pb.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 report::Report ReadReport(const std::string& folder) {
@@ -117,4 +117,4 @@ Trajectory TrackedPart(const std::string& folder) {
   return Until(estimate, FirstLoss(report, estimate, &lost));
 }
 
-}  // namespace evit
+}  // namespace evit::paper

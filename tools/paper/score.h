@@ -6,7 +6,7 @@
 
 #include "common/evaluation/trajectory_error.h"
 
-namespace evit {
+namespace evit::paper {
 
 /// The paper's milestones (Sec. IV): shares of a sequence.
 inline constexpr std::array<double, 3> kMilestones{0.3, 0.5, 1.0};
@@ -44,4 +44,4 @@ RunScore ScoreRun(const std::string& folder, const std::string& truth);
 /// The trajectory of such a run, up to its first loss.
 Trajectory TrackedPart(const std::string& folder);
 
-}  // namespace evit
+}  // namespace evit::paper

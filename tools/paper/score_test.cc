@@ -7,7 +7,7 @@
 #include "tools/paper/jerk.h"
 #include "tools/run/report_writer.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 constexpr Utime kBegin = 1'642'661'138'000'000;
@@ -72,7 +72,7 @@ class RunFolder : public ::testing::Test {
   void Write(const Trajectory& poses) {
     report_.set_poses(static_cast<int>(poses.size()));
     WriteTum(folder_ / "trajectory.tum", poses);
-    WriteReport(folder_ / "report.json", report_);
+    run::WriteReport(folder_ / "report.json", report_);
   }
   void AddMode(const char* mode, Utime t, const char* reason) {
     auto* change = report_.add_mode_changes();
@@ -129,4 +129,4 @@ TEST(Jerk, IsWhereTheRotationChanges) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::paper

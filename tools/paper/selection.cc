@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 template <typename List, typename Item>
@@ -58,4 +58,4 @@ bool Selection::Wants(const paper::Sequence& sequence, const paper::Method& meth
          });
 }
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -5,7 +5,7 @@
 
 #include "tools/paper/results.h"
 
-namespace evit {
+namespace evit::paper {
 
 /// Which runs `--only` words ask for: tables ("I" or "normal", ...), sequences, methods (id, or name for all
 /// of that name). Words of one kind add up, kinds narrow each other: "II EVIT" is EVIT on the fast sequences.
@@ -22,4 +22,4 @@ class Selection {
   std::vector<std::string> sequences_, methods_;
 };
 
-}  // namespace evit
+}  // namespace evit::paper

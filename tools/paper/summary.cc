@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace evit {
+namespace evit::paper {
 
 Spread SpreadOf(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -36,4 +36,4 @@ Summary Summarize(const std::vector<RunScore>& runs) {
   return summary;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -5,7 +5,7 @@
 
 #include "tools/paper/score.h"
 
-namespace evit {
+namespace evit::paper {
 
 /// Median and worst of one figure over the seeds.
 struct Spread {
@@ -27,4 +27,4 @@ struct Summary {
 /// Requires at least one run.
 Summary Summarize(const std::vector<RunScore>& runs);
 
-}  // namespace evit
+}  // namespace evit::paper

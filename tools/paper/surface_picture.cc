@@ -2,7 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-namespace evit {
+namespace evit::paper {
 
 std::vector<Eigen::Vector3f> VisibleFrom(const MapIndex& map, const Rig& rig, const SE3& T_map_body,
                                          int most) {
@@ -36,4 +36,4 @@ cv::Mat SurfaceWithPoints(const RecordedKeyframe& keyframe, const Rig& rig,
   return picture;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -7,7 +7,7 @@
 #include "common/map/visibility.h"
 #include "tools/paper/keyframe_log.h"
 
-namespace evit {
+namespace evit::paper {
 
 /// Points of the map that the camera sees from there (map frame), a random subset of at most `most`.
 std::vector<Eigen::Vector3f> VisibleFrom(const MapIndex& map, const Rig& rig, const SE3& T_map_body,
@@ -19,4 +19,4 @@ cv::Mat SurfaceWithPoints(const RecordedKeyframe& keyframe, const Rig& rig,
                           const std::vector<Eigen::Vector3f>& points, const SE3& T_map_body,
                           const cv::Scalar& color, double zoom);
 
-}  // namespace evit
+}  // namespace evit::paper

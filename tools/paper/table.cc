@@ -6,7 +6,7 @@
 
 #include "tools/paper/summary.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 std::size_t Index(Alignment alignment) {
@@ -161,4 +161,4 @@ std::vector<std::string> Losses(const paper::Paper& config, const PaperResults& 
   return lines;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -5,7 +5,7 @@
 
 #include "tools/paper/results.h"
 
-namespace evit {
+namespace evit::paper {
 
 /// Rows of text, as they are printed.
 struct TextTable {
@@ -43,4 +43,4 @@ std::vector<std::string> Losses(const paper::Paper& config, const PaperResults& 
 std::vector<std::string> WriteTables(const std::string& folder, const paper::Paper& config,
                                      const PaperResults& results);
 
-}  // namespace evit
+}  // namespace evit::paper

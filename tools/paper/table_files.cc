@@ -8,7 +8,7 @@
 #include "tools/paper/table.h"
 #include "tools/paper/text_files.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -167,4 +167,4 @@ std::vector<std::string> WriteTables(const std::string& folder, const paper::Pap
   return written;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

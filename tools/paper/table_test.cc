@@ -9,7 +9,7 @@
 #include "tools/paper/summary.h"
 #include "tools/paper/text_files.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 using ::testing::ElementsAre;
@@ -100,4 +100,4 @@ TEST(Summary, MedianOfAnEvenNumberIsTheMeanOfTheMiddle) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::paper

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 constexpr std::uint64_t kBasis = 14'695'981'039'346'656'037ULL, kPrime = 1'099'511'628'211ULL;
@@ -61,4 +61,4 @@ std::string HexText(std::uint64_t hash) {
   return text;
 }
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -4,7 +4,7 @@
 #include <string>
 
 /// Small files, written whole or not at all. All throw std::runtime_error naming the file.
-namespace evit {
+namespace evit::paper {
 
 std::string ReadText(const std::string& path);
 void WriteText(const std::string& path, const std::string& text);
@@ -15,4 +15,4 @@ std::uint64_t HashOf(const std::string& text);
 std::uint64_t HashOfFile(const std::string& path);
 std::string HexText(std::uint64_t hash);
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -8,7 +8,7 @@
 
 #include "tools/pictures/chart.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 constexpr double kDegrees = 57.295779513082323;
@@ -63,7 +63,7 @@ void Legend(cv::Mat* image, const std::vector<MethodTrajectory>& methods, int y)
   int x = 80;
   const auto entry = [&](const std::string& name, const cv::Scalar& color) {
     cv::line(*image, {x, y - 6}, {x + 34, y - 6}, color, 4, cv::LINE_AA);
-    DrawText(image, name, {x + 42, y}, 0.6, Anchor::kLeft);
+    pictures::DrawText(image, name, {x + 42, y}, 0.6, pictures::Anchor::kLeft);
     int base = 0;
     x += 80 + cv::getTextSize(name, cv::FONT_HERSHEY_SIMPLEX, 0.6, 1, &base).width;
   };
@@ -77,7 +77,7 @@ void DrawTrajectories(const std::string& path, const std::string& title, const T
                       const std::vector<MethodTrajectory>& methods) {
   constexpr int kWidth = 1600, kTop = 90, kRow = 300;
   cv::Mat image(kTop + 3 * kRow + 10, kWidth, CV_8UC3, cv::Scalar(255, 255, 255));
-  DrawText(&image, title, {kWidth / 2, 34}, 0.8, Anchor::kCenter, {20, 20, 20}, 2);
+  pictures::DrawText(&image, title, {kWidth / 2, 34}, 0.8, pictures::Anchor::kCenter, {20, 20, 20}, 2);
   Legend(&image, methods, 72);
   const Utime begin = truth.empty() ? 0 : truth.front().t;
   const Eigen::Quaterniond reference = truth.empty() ? Eigen::Quaterniond::Identity() : truth.front().pose.q;
@@ -94,12 +94,12 @@ void DrawTrajectories(const std::string& path, const std::string& title, const T
   }
   const char* names[6] = {"x [m]", "y [m]", "z [m]", "roll [deg]", "pitch [deg]", "yaw [deg]"};
   for (int c = 0; c < 6; ++c) {
-    Chart chart{"", c % 3 == 2 ? "time [s]" : "", names[c], {}, false, false};
+    pictures::Chart chart{"", c % 3 == 2 ? "time [s]" : "", names[c], {}, false, false};
     const Band band = BandOf(true_curves.v[c]);
     chart.series.push_back({"", kTruth, true_curves.t, true_curves.v[c], true, kGap});
     for (std::size_t k = 0; k < curves.size(); ++k) {
       const cv::Scalar color = kColors[k % std::size(kColors)];
-      Series line{"", color, {}, {}, true, kGap}, end{"", color, {}, {}, false, 0};
+      pictures::Series line{"", color, {}, {}, true, kGap}, end{"", color, {}, {}, false, 0};
       for (std::size_t i = 0; i < curves[k].t.size(); ++i) {
         if (!band.Holds(curves[k].v[c][i])) continue;
         line.x.push_back(curves[k].t[i]);
@@ -118,4 +118,4 @@ void DrawTrajectories(const std::string& path, const std::string& title, const T
   if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
 }
 
-}  // namespace evit
+}  // namespace evit::paper

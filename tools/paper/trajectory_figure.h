@@ -5,7 +5,7 @@
 
 #include "common/evaluation/trajectory.h"
 
-namespace evit {
+namespace evit::paper {
 
 /// One method's trajectory, as long as it tracked.
 struct MethodTrajectory {
@@ -20,4 +20,4 @@ struct MethodTrajectory {
 void DrawTrajectories(const std::string& path, const std::string& title, const Trajectory& truth,
                       const std::vector<MethodTrajectory>& methods);
 
-}  // namespace evit
+}  // namespace evit::paper

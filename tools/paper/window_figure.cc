@@ -10,7 +10,7 @@
 #include "tools/pictures/chart.h"
 #include "tools/pictures/top_view.h"
 
-namespace evit {
+namespace evit::paper {
 namespace {
 
 constexpr int kPlan = 760;       // pixels of the square that holds the plan, and of the detail beside it
@@ -94,7 +94,7 @@ cv::Mat Detail(const std::vector<SE3>& cameras, const Camera& camera) {
     DrawWedge(&image, at, WedgeOf(camera, cameras[k], depth), ColorOf(k, cameras.size()));
   const double bar = span >= 0.1 ? 0.1 : 0.01;
   cv::line(image, {30, kPlan - 30}, {30 + static_cast<int>(bar * scale), kPlan - 30}, {60, 60, 60}, 3);
-  DrawText(&image, bar > 0.05 ? "10 cm" : "1 cm", {30, kPlan - 40}, 0.5, Anchor::kLeft);
+  pictures::DrawText(&image, bar > 0.05 ? "10 cm" : "1 cm", {30, kPlan - 40}, 0.5, pictures::Anchor::kLeft);
   cv::rectangle(image, {0, 0, kPlan, kPlan}, {190, 190, 190});
   return image;
 }
@@ -112,7 +112,7 @@ void DrawWindow(const std::string& path, const std::string& title, const Keyfram
   std::vector<Eigen::Vector2d> in_view;
   for (const SE3& c : cameras)
     in_view.emplace_back(c.p.head<2>() - 0.2 * (c.q * Eigen::Vector3d::UnitZ()).head<2>());
-  TopView plan = DrawTopView(map.map(), kPlan - 60, in_view);
+  pictures::TopView plan = pictures::DrawTopView(map.map(), kPlan - 60, in_view);
   const auto at = [&](const Eigen::Vector3d& p) { return plan.At(p.x(), p.y()); };
   for (std::size_t k = 0; k < n; ++k)
     DrawWedge(&plan.picture, at, WedgeOf(rig.camera, cameras[k], 1.0), ColorOf(k, n));
@@ -121,7 +121,7 @@ void DrawWindow(const std::string& path, const std::string& title, const Keyfram
   const int upper = std::max(plan.picture.rows, kPlan);
   const int width = std::max(plan.picture.cols + kPlan + 3 * kGap, columns * (kThumbnail + kGap) + kGap);
   cv::Mat image(kTop + upper + 50 + thumb_height + kGap, width, CV_8UC3, cv::Scalar(255, 255, 255));
-  DrawText(&image, title, {width / 2, 38}, 0.8, Anchor::kCenter, {20, 20, 20}, 2);
+  pictures::DrawText(&image, title, {width / 2, 38}, 0.8, pictures::Anchor::kCenter, {20, 20, 20}, 2);
   plan.picture.copyTo(image(cv::Rect({kGap, kTop}, plan.picture.size())));
   Detail(cameras, rig.camera).copyTo(image(cv::Rect(width - kPlan - kGap, kTop, kPlan, kPlan)));
   const int y = kTop + upper + 40;
@@ -139,9 +139,9 @@ void DrawWindow(const std::string& path, const std::string& title, const Keyfram
     char text[40];
     std::snprintf(text, sizeof text, "%.0f ms",
                   1e-3 * static_cast<double>(window.node[k].utime - window.utime));
-    DrawText(&image, text, {where.x + kThumbnail / 2, y - 10}, 0.5, Anchor::kCenter);
+    pictures::DrawText(&image, text, {where.x + kThumbnail / 2, y - 10}, 0.5, pictures::Anchor::kCenter);
   }
   if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
 }
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -6,7 +6,7 @@
 #include "common/map/visibility.h"
 #include "tools/paper/keyframe_log.h"
 
-namespace evit {
+namespace evit::paper {
 
 /// The paper's Fig. 1: one window of keyframes, the one that spans the longest way: the map from above with
 /// each camera's field of view, the cameras again at a larger scale, joined by their IMU terms, and each time
@@ -15,4 +15,4 @@ namespace evit {
 void DrawWindow(const std::string& path, const std::string& title, const KeyframeLog& log, const Rig& rig,
                 const MapIndex& map);
 
-}  // namespace evit
+}  // namespace evit::paper

@@ -6,7 +6,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-namespace evit {
+namespace evit::pictures {
 namespace {
 
 const cv::Scalar kGrid(230, 230, 230), kAxis(120, 120, 120);
@@ -120,4 +120,4 @@ void Chart::Draw(cv::Mat* image, const cv::Rect& where) const {
   }
 }
 
-}  // namespace evit
+}  // namespace evit::pictures

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace evit {
+namespace evit::pictures {
 
 /// One curve or cloud of points in a chart.
 struct Series {
@@ -30,4 +30,4 @@ enum class Anchor { kLeft, kCenter, kRight };
 void DrawText(cv::Mat* image, const std::string& text, cv::Point at, double size, Anchor anchor,
               const cv::Scalar& color = cv::Scalar(40, 40, 40), int thickness = 1);
 
-}  // namespace evit
+}  // namespace evit::pictures

@@ -6,7 +6,7 @@
 
 #include "tools/pictures/chart.h"
 
-namespace evit {
+namespace evit::pictures {
 namespace {
 
 constexpr double kDegrees = 57.295779513082323;
@@ -43,4 +43,4 @@ void PlotConsistency(const std::string& path, const std::string& title, const Co
   if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
 }
 
-}  // namespace evit
+}  // namespace evit::pictures

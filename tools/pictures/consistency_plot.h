@@ -4,10 +4,10 @@
 
 #include "common/evaluation/consistency.h"
 
-namespace evit {
+namespace evit::pictures {
 
 /// Draws the error of each of the six components of the pose over time, between its 2-sigma bounds. Where
 /// there is no truth the charts say so. Writes a PNG; throws std::runtime_error naming the file.
 void PlotConsistency(const std::string& path, const std::string& title, const Consistency& consistency);
 
-}  // namespace evit
+}  // namespace evit::pictures

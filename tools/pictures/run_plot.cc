@@ -5,7 +5,7 @@
 
 #include "tools/pictures/chart.h"
 
-namespace evit {
+namespace evit::pictures {
 namespace {
 
 constexpr double kDegrees = 57.295779513082323;
@@ -80,4 +80,4 @@ void PlotRun(const std::string& path, const std::string& title, const Trajectory
   if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
 }
 
-}  // namespace evit
+}  // namespace evit::pictures

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace evit {
+namespace evit::pictures {
 namespace {
 
 constexpr int kSide = 1000;         // pixels of the longer side of a plan that is written
@@ -116,4 +116,4 @@ void WriteTopView(const std::string& path, const PointMap& map) {
   }
 }
 
-}  // namespace evit
+}  // namespace evit::pictures

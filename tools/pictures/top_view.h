@@ -6,7 +6,7 @@
 
 #include "common/map/point_map.h"
 
-namespace evit {
+namespace evit::pictures {
 
 /// A map seen from above (x to the right, y up, as a plan), to draw more onto.
 struct TopView {
@@ -26,4 +26,4 @@ TopView DrawTopView(const PointMap& map, int side, const std::vector<Eigen::Vect
 /// it cannot be written.
 void WriteTopView(const std::string& path, const PointMap& map);
 
-}  // namespace evit
+}  // namespace evit::pictures

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <stdexcept>
 
-namespace evit {
+namespace evit::run {
 
 BusLog::BusLog(Bus* bus, const std::string& path, const std::vector<std::string>& channels) : log_(path) {
   for (const std::string& name : channels) {
@@ -24,4 +24,4 @@ void BusLog::Close() {
   log_.Close();
 }
 
-}  // namespace evit
+}  // namespace evit::run

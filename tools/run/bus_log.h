@@ -6,7 +6,7 @@
 #include "common/bus/bus.h"
 #include "common/bus/log_file.h"
 
-namespace evit {
+namespace evit::run {
 
 /// Writes what comes on some channels to an LCM log, as lcm-logger would, with the host's time of arrival.
 /// Where the disk takes no more, the run goes on, and Close() says so.
@@ -23,4 +23,4 @@ class BusLog {
   std::string error_;
 };
 
-}  // namespace evit
+}  // namespace evit::run

@@ -4,7 +4,7 @@
 
 #include "common/bus/codec.h"
 
-namespace evit {
+namespace evit::run {
 namespace {
 
 constexpr std::size_t kKept = 4096;  // messages: some seconds
@@ -62,4 +62,4 @@ LatencyProbe::Summary LatencyProbe::Summarize(std::vector<double> ms) {
   return {static_cast<int>(ms.size()), at(0.5), at(0.99), ms.back()};
 }
 
-}  // namespace evit
+}  // namespace evit::run

@@ -8,7 +8,7 @@
 #include "common/bus/channels.h"
 #include "common/time/utime.h"
 
-namespace evit {
+namespace evit::run {
 
 /// Measures, as a listener on the bus, how long after the data a pose comes. Means something only where data
 /// come in real time.
@@ -52,4 +52,4 @@ class LatencyProbe {
   std::vector<double> after_events_, after_stamp_, imu_pose_;
 };
 
-}  // namespace evit
+}  // namespace evit::run

@@ -8,7 +8,7 @@
 #include "tests/helpers/bus_messages.h"
 #include "tests/helpers/sample_messages.h"
 
-namespace evit {
+namespace evit::run {
 namespace {
 
 class LatencyTest : public ::testing::Test {
@@ -64,4 +64,4 @@ TEST_F(LatencyTest, WhatCannotBeDatedDoesNotCount) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::run

@@ -20,7 +20,7 @@
 
 #include "common/bus/lcm_url.h"
 
-namespace evit {
+namespace evit::run {
 namespace {
 
 [[noreturn]] void Fail(const std::string& what) {
@@ -177,4 +177,4 @@ void JoinNetworkOf(const RunningPipeline& pipeline) {
   }
 }
 
-}  // namespace evit
+}  // namespace evit::run

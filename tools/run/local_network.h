@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace evit {
+namespace evit::run {
 
 /// Makes sure UDP multicast works on `lo` without ever leaving the host. Where the machine's `lo` has a route
 /// to the group of `url` nothing is done; otherwise this process (and all children it starts later) moves
@@ -38,4 +38,4 @@ std::optional<RunningPipeline> FindRunning();
 /// made. Throws std::runtime_error where the kernel forbids it.
 void JoinNetworkOf(const RunningPipeline& pipeline);
 
-}  // namespace evit
+}  // namespace evit::run

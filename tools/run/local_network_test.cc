@@ -10,7 +10,7 @@
 #include "common/bus/lcm_bus.h"
 #include "common/bus/lcm_url.h"
 
-namespace evit {
+namespace evit::run {
 namespace {
 
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
@@ -135,4 +135,4 @@ TEST(LocalNetwork, RunFileNamesThisProcessWhileItLives) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::run

@@ -7,7 +7,7 @@
 #include "procman/proc_usage.h"
 #include "tools/pictures/chart.h"
 
-namespace evit {
+namespace evit::run {
 
 MemoryLog::MemoryLog(const Pipeline* pipeline) : pipeline_(pipeline), mb_(pipeline->processes().size()) {}
 
@@ -17,8 +17,9 @@ void MemoryLog::Tick() {
   last_ = now;
   seconds_.push_back(std::chrono::duration<double>(now - begin_).count());
   for (std::size_t k = 0; k < mb_.size(); ++k) {
-    const ManagedProcess& process = *pipeline_->processes()[k];
-    const ProcessUsage usage = process.running() ? ReadProcessUsage(process.pid()) : ProcessUsage();
+    const procman::ManagedProcess& process = *pipeline_->processes()[k];
+    const procman::ProcessUsage usage =
+        process.running() ? procman::ReadProcessUsage(process.pid()) : procman::ProcessUsage();
     mb_[k].push_back(static_cast<double>(usage.rss_bytes) / (1 << 20));
   }
 }
@@ -27,7 +28,7 @@ void MemoryLog::Write(const std::string& folder) const {
   const cv::Scalar colors[] = {{60, 60, 210}, {70, 150, 50}, {190, 110, 30}, {150, 50, 130}};
   std::ofstream csv(folder + "/memory.csv");
   csv << "seconds";
-  Chart chart{"physical memory of each service", "time [s]", "[MB]", {}, false, true};
+  pictures::Chart chart{"physical memory of each service", "time [s]", "[MB]", {}, false, true};
   for (std::size_t k = 0; k < mb_.size(); ++k) {
     const std::string& name = pipeline_->processes()[k]->command().id;
     csv << ',' << name << "_mb";
@@ -48,4 +49,4 @@ void MemoryLog::Write(const std::string& folder) const {
   }
 }
 
-}  // namespace evit
+}  // namespace evit::run

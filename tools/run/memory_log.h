@@ -6,7 +6,7 @@
 
 #include "tools/run/pipeline.h"
 
-namespace evit {
+namespace evit::run {
 
 /// Physical memory of each service over time, one sample a second.
 class MemoryLog {
@@ -27,4 +27,4 @@ class MemoryLog {
   std::vector<std::vector<double>> mb_;  // per service
 };
 
-}  // namespace evit
+}  // namespace evit::run

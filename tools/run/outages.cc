@@ -4,7 +4,7 @@
 
 #include "common/bus/codec.h"
 
-namespace evit {
+namespace evit::run {
 namespace {
 
 // What dies is missed at once, but for what was under way: later gaps have other causes.
@@ -60,4 +60,4 @@ double Outages::MsAfter(Clock::time_point since, Clock::time_point until) const 
   return std::chrono::duration<double, std::milli>(back - since).count();
 }
 
-}  // namespace evit
+}  // namespace evit::run

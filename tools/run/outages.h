@@ -7,7 +7,7 @@
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
 
-namespace evit {
+namespace evit::run {
 
 /// Notes when poses come (WINDOW_STATE while tracking) and which keyframes were answered (TRACKER_MODE), to
 /// tell what a restart cost.
@@ -39,4 +39,4 @@ class Outages {
   std::int64_t epoch_ = -1, seq_ = -1;
 };
 
-}  // namespace evit
+}  // namespace evit::run

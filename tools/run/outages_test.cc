@@ -4,7 +4,7 @@
 
 #include "common/bus/memory_bus.h"
 
-namespace evit {
+namespace evit::run {
 namespace {
 
 using std::chrono::milliseconds;
@@ -45,4 +45,4 @@ TEST(OutagesTest, WithoutAnyPose) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::run

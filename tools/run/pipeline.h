@@ -7,7 +7,7 @@
 #include "common/bus/bus.h"
 #include "procman/deputy.h"
 
-namespace evit {
+namespace evit::run {
 
 /// The services of one run, under a deputy of their own. They end with this object.
 class Pipeline {
@@ -20,7 +20,7 @@ class Pipeline {
   /// Starts `services` in their order. `deputy`: its id on PM_INFO. `programs`: folder of the executables;
   /// `logs`: folder for NAME.log, what each one says. `bus` must outlive this. Throws std::runtime_error
   /// where one cannot be started.
-  Pipeline(Bus* bus, const std::string& deputy, const std::vector<ProcmanCommand>& services,
+  Pipeline(Bus* bus, const std::string& deputy, const std::vector<procman::ProcmanCommand>& services,
            const std::string& programs, const std::string& logs);
 
   /// Call often. Throws std::runtime_error, with its last words, where one has died that is not to be started
@@ -32,13 +32,13 @@ class Pipeline {
 
   /// Those that died and were started again.
   const std::vector<Death>& deaths() const { return deaths_; }
-  const std::vector<std::unique_ptr<ManagedProcess>>& processes() const { return processes_; }
+  const std::vector<std::unique_ptr<procman::ManagedProcess>>& processes() const { return processes_; }
 
  private:
-  Deputy deputy_;
-  const std::vector<std::unique_ptr<ManagedProcess>>& processes_;
+  procman::Deputy deputy_;
+  const std::vector<std::unique_ptr<procman::ManagedProcess>>& processes_;
   std::vector<int> runs_;  // of each process, seen so far
   std::vector<Death> deaths_;
 };
 
-}  // namespace evit
+}  // namespace evit::run

@@ -6,7 +6,7 @@
 #include "common/bus/memory_bus.h"
 #include "tests/helpers/programs.h"
 
-namespace evit {
+namespace evit::run {
 namespace {
 
 using ::testing::AllOf;
@@ -16,13 +16,13 @@ using namespace std::chrono_literals;
 
 class PipelineTest : public ProgramsTest {
  protected:
-  static ProcmanCommand Service(const std::string& name, bool replaceable = false) {
-    ProcmanCommand command;
+  static procman::ProcmanCommand Service(const std::string& name, bool replaceable = false) {
+    procman::ProcmanCommand command;
     command.id = command.exec = name;
     command.auto_respawn = replaceable;
     return command;
   }
-  std::unique_ptr<Pipeline> Make(const std::vector<ProcmanCommand>& services) {
+  std::unique_ptr<Pipeline> Make(const std::vector<procman::ProcmanCommand>& services) {
     return std::make_unique<Pipeline>(bus_.get(), "d", services, folder_, folder_);
   }
 
@@ -82,4 +82,4 @@ TEST_F(PipelineTest, MissingProgramIsNamed) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::run

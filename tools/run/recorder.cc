@@ -4,7 +4,7 @@
 
 #include "common/bus/codec.h"
 
-namespace evit {
+namespace evit::run {
 namespace {
 
 StampedPose PoseOf(const node_state_t& node) {
@@ -109,4 +109,4 @@ std::int64_t CounterOf(const service_status_t& status, const std::string& name) 
   return it == status.counter_name.end() ? 0 : status.counter_value[it - status.counter_name.begin()];
 }
 
-}  // namespace evit
+}  // namespace evit::run

@@ -14,7 +14,7 @@
 #include "evit/tracker_mode_t.hpp"
 #include "evit/window_state_t.hpp"
 
-namespace evit {
+namespace evit::run {
 
 /// Listens to a run: keeps the trajectories, mode changes and each service's last STATUS, and knows when it
 /// is over.
@@ -75,4 +75,4 @@ class Recorder {
 /// A STATUS counter by name; 0 where there is none.
 std::int64_t CounterOf(const service_status_t& status, const std::string& name);
 
-}  // namespace evit
+}  // namespace evit::run

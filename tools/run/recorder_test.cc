@@ -6,7 +6,7 @@
 #include "common/bus/memory_bus.h"
 #include "tests/helpers/bus_messages.h"
 
-namespace evit {
+namespace evit::run {
 namespace {
 
 using ::testing::ElementsAre;
@@ -162,4 +162,4 @@ TEST_F(RecorderTest, RubbishIsIgnored) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::run

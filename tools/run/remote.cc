@@ -9,7 +9,7 @@
 #include "common/bus/limits.h"
 #include "common/service/status_reporter.h"
 
-namespace evit {
+namespace evit::run {
 
 Remote::Remote(Bus* bus, const Channels& channels) : bus_(bus), channels_(channels), epoch_(NewEpoch()) {}
 
@@ -40,4 +40,4 @@ void Remote::HintPose(const SE3& T_map_body) {
   bus_->Publish(channels_.pose_hint, bytes.data(), bytes.size());
 }
 
-}  // namespace evit
+}  // namespace evit::run

@@ -8,7 +8,7 @@
 #include "common/geometry/se3.h"
 #include "evit/replay_control_t.hpp"
 
-namespace evit {
+namespace evit::run {
 
 /// What a run tells its services: orders to log_replay, and where the body is to window_optimizer.
 class Remote {
@@ -30,4 +30,4 @@ class Remote {
   std::int64_t epoch_, order_seq_ = 0, hint_seq_ = 0;
 };
 
-}  // namespace evit
+}  // namespace evit::run

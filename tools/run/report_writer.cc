@@ -8,7 +8,7 @@
 
 #include "common/evaluation/trajectory_error.h"
 
-namespace evit {
+namespace evit::run {
 namespace {
 
 constexpr double kDegrees = 57.295779513082323;
@@ -103,4 +103,4 @@ void WriteReport(const std::string& path, const report::Report& report) {
   }
 }
 
-}  // namespace evit
+}  // namespace evit::run

@@ -6,7 +6,7 @@
 #include "tools/run/recorder.h"
 #include "tools/run/report.pb.h"
 
-namespace evit {
+namespace evit::run {
 
 /// Adds what the recorder heard: keyframes, modes, services' counters and stages.
 void FillFromRecorder(const Recorder& recorder, report::Report* report);
@@ -20,4 +20,4 @@ void FillConsistency(const Consistency& consistency, report::Report* report);
 /// Writes the report as JSON, atomically. Throws std::runtime_error naming the file.
 void WriteReport(const std::string& path, const report::Report& report);
 
-}  // namespace evit
+}  // namespace evit::run

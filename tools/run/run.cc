@@ -25,7 +25,7 @@
 #include "tools/run/run_results.h"
 #include "tools/terminal/progress_bar.h"
 
-namespace evit {
+namespace evit::run {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -43,7 +43,7 @@ std::string PoseText(const SE3& pose) {
   return line.substr(line.find(' ') + 1);
 }
 
-std::vector<ProcmanCommand> Commands(const RunJob& job, const std::string& url, const SE3& start) {
+std::vector<procman::ProcmanCommand> Commands(const RunJob& job, const std::string& url, const SE3& start) {
   const auto state_file = [&](const char* name) {
     std::string path = job.out + "/" + name;
     std::filesystem::remove(path);  // of an earlier run
@@ -67,14 +67,14 @@ std::vector<ProcmanCommand> Commands(const RunJob& job, const std::string& url, 
     replay.insert(replay.end(), {"--speed", std::to_string(job.speed), "--start-paused", "--position",
                                  state_file(kPosition)});
   }
-  std::vector<ProcmanCommand> commands;
+  std::vector<procman::ProcmanCommand> commands;
   for (std::vector<std::string>* words : {&map_server, &optimizer, &builder, &replay}) {
     words->insert(words->end(), {"--lcm-url", url});
     if (!job.prefix.empty()) words->insert(words->end(), {"--prefix", job.prefix});
     if (job.lossless && words != &map_server) words->emplace_back("--lossless");
-    ProcmanCommand command;
+    procman::ProcmanCommand command;
     command.id = words->front();
-    command.exec = JoinCommandLine(*words);
+    command.exec = procman::JoinCommandLine(*words);
     command.group = "evit";
     // Lossless replay is in the middle of a conversation that counts messages: only map_server keeps out of
     // it.
@@ -107,7 +107,7 @@ class StartSignal {
   Clock::time_point sent_at_;
 };
 
-void Show(const Recorder& recorder, ProgressBar* bar) {
+void Show(const Recorder& recorder, terminal::ProgressBar* bar) {
   static constexpr const char* kModes[] = {"bootstrapping", "tracking", "LOST"};
   const std::int64_t n = recorder.n_keyframes();
   bar->Show(recorder.progress(),
@@ -125,7 +125,7 @@ void Show(const Recorder& recorder, ProgressBar* bar) {
 // Until the run is over; returns how it ended.
 std::string WaitForEnd(const RunJob& job, const StopSignals& signals, Bus* bus, Remote* remote,
                        Recorder* recorder, Pipeline* pipeline, MemoryLog* memory) {
-  ProgressBar bar("tracking");
+  terminal::ProgressBar bar("tracking");
   StartSignal start(remote);
   auto last_activity = Clock::now();
   while (!signals.received()) {
@@ -224,4 +224,4 @@ int Run(const RunJob& job) {
   return WriteResults(job, inputs, recorder, pipeline, outcome);
 }
 
-}  // namespace evit
+}  // namespace evit::run

@@ -6,7 +6,7 @@
 
 #include "common/geometry/se3.h"
 
-namespace evit {
+namespace evit::run {
 
 /// One run of the four services on a recorded log.
 struct RunJob {
@@ -31,4 +31,4 @@ struct RunJob {
 /// be used, a service died.
 int Run(const RunJob& job);
 
-}  // namespace evit
+}  // namespace evit::run

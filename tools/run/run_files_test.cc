@@ -15,7 +15,7 @@
 #include "tools/run/report_writer.h"
 #include "tools/run/run_inputs.h"
 
-namespace evit {
+namespace evit::run {
 namespace {
 
 using ::testing::AllOf;
@@ -199,7 +199,7 @@ TEST_F(RunFilesTest, ReportAndPlotSayHowHonestTheCovarianceIs) {
   EXPECT_EQ(json["consistency"]["pose_nees"]["dof"], 6);
   EXPECT_EQ(json["consistency"]["pose_nees"]["share_within_95"], 1);
   for (const bool scored : {true, false}) {
-    PlotConsistency(Path("plot.png"), "title", scored ? consistency : Consistency{});
+    pictures::PlotConsistency(Path("plot.png"), "title", scored ? consistency : Consistency{});
     const cv::Mat image = cv::imread(Path("plot.png"));
     EXPECT_GT(image.cols, 1000);
     cv::Mat bounds;
@@ -213,7 +213,7 @@ TEST_F(RunFilesTest, PlotsWithAndWithoutTruthOrPoses) {
   for (int k = 0; k <= 100; ++k) truth.push_back({kStart + Utime{10'000} * k, At(k)});
   for (const auto& [a, b] : {std::pair(truth, truth), std::pair(Trajectory(), truth),
                              std::pair(truth, Trajectory()), std::pair(Trajectory(), Trajectory())}) {
-    PlotRun(Path("plot.png"), "title", a, b);
+    pictures::PlotRun(Path("plot.png"), "title", a, b);
     const cv::Mat image = cv::imread(Path("plot.png"));
     EXPECT_GT(image.cols, 1000);
     // Blue, the colour of the path and of z, shows where and only where there are poses.
@@ -224,4 +224,4 @@ TEST_F(RunFilesTest, PlotsWithAndWithoutTruthOrPoses) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::run

@@ -15,7 +15,7 @@
 #include "common/map/map_file.h"
 #include "common/map/photometric_map.h"
 
-namespace evit {
+namespace evit::run {
 namespace {
 
 bool EndsWith(const std::string& text, const std::string& end) {
@@ -131,4 +131,4 @@ RunInputs PrepareRun(const RunJob& job) {
   return inputs;
 }
 
-}  // namespace evit
+}  // namespace evit::run

@@ -5,7 +5,7 @@
 #include "common/evaluation/trajectory.h"
 #include "tools/run/run.h"
 
-namespace evit {
+namespace evit::run {
 
 /// What a run starts from, found before anything is started.
 struct RunInputs {
@@ -19,4 +19,4 @@ struct RunInputs {
 /// run from it. Throws std::runtime_error naming file and remedy; nothing is written then.
 RunInputs PrepareRun(const RunJob& job);
 
-}  // namespace evit
+}  // namespace evit::run

@@ -12,7 +12,7 @@
 #include "tools/pictures/run_plot.h"
 #include "tools/run/report_writer.h"
 
-namespace evit {
+namespace evit::run {
 namespace {
 
 std::string ReadText(const std::string& path) {
@@ -157,13 +157,13 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
   WriteCovariances(job.out + "/covariance.csv", recorder.covariances());
   WriteReport(job.out + "/report.json", report);
   const std::string title = Title(job, report);
-  PlotRun(job.out + "/trajectory.png", title, inputs.truth, online);
+  pictures::PlotRun(job.out + "/trajectory.png", title, inputs.truth, online);
 
   std::printf("%s\n", title.c_str());
   const bool scored = !consistency.errors.empty();
   if (scored) {
     const std::string text = ConsistencyText(consistency);
-    PlotConsistency(job.out + "/consistency.png", text, consistency);
+    pictures::PlotConsistency(job.out + "/consistency.png", text, consistency);
     std::printf("%s\n", text.c_str());
   }
   std::printf("%d keyframes (%.0f Hz), %.1f s in %.1f s: real-time factor %.2f; %.1f ms CPU per keyframe\n",
@@ -184,4 +184,4 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
   return outcome.ended == "interrupted" ? 130 : 0;
 }
 
-}  // namespace evit
+}  // namespace evit::run

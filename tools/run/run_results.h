@@ -9,7 +9,7 @@
 #include "tools/run/run.h"
 #include "tools/run/run_inputs.h"
 
-namespace evit {
+namespace evit::run {
 
 /// How a run went, beside what the recorder heard.
 struct RunOutcome {
@@ -25,4 +25,4 @@ struct RunOutcome {
 int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& recorder,
                  const Pipeline& pipeline, const RunOutcome& outcome);
 
-}  // namespace evit
+}  // namespace evit::run

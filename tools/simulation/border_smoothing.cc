@@ -7,7 +7,7 @@
 #include "tools/simulation/four_values.h"
 #include "tools/simulation/renderer.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 constexpr int kSamples = 16, kVectors = 4;  // of a pixel
@@ -127,4 +127,4 @@ float Renderer::SmoothPixel(const std::vector<PlacedSurface>& placed, const std:
   return covered > 0 ? sum / static_cast<float>(covered) : fallback;
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -7,7 +7,7 @@
 
 #include "tools/simulation/random.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 constexpr double kRadians = 0.017453292519943295;
@@ -120,4 +120,4 @@ Trajectory MakeBuiltinMotion(const BuiltinMotion& builtin, double duration, std:
   return poses;
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

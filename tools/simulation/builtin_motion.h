@@ -6,7 +6,7 @@
 #include "common/evaluation/trajectory.h"
 #include "common/geometry/rig.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// A motion made by formula: sums of sines with random phases, in about 0.15 to 0.75 Hz times `tempo`, scaled
 /// to the wanted mean speed and turn rate of the camera.
@@ -37,4 +37,4 @@ std::string BuiltinMotionNames();
 Trajectory MakeBuiltinMotion(const BuiltinMotion& builtin, double duration, std::uint64_t variant,
                              const Rig& rig);
 
-}  // namespace evit
+}  // namespace evit::simulation

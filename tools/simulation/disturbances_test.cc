@@ -10,7 +10,7 @@
 #include "tools/simulation/room.h"
 #include "tools/simulation/trajectory_source.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 Rig SmallRig() {
@@ -163,4 +163,4 @@ TEST(PlainRoom, HasLittleTexture) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::simulation

@@ -11,7 +11,7 @@
 #include "tools/simulation/parallel.h"
 #include "tools/simulation/random.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 float Bilinear(const cv::Mat& image, double x, double y) {
@@ -155,4 +155,4 @@ void WriteBinaryPcd(const std::string& path, const PointMap& map) {
   if (!file) throw std::runtime_error("cannot write " + path);
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -9,7 +9,7 @@
 #include "tools/simulation/pose_spline.h"
 #include "tools/simulation/renderer.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// Errors of a map as a depth camera with posed views would make it.
 struct MapSettings {
@@ -50,4 +50,4 @@ PointMap MakeEdgeMap(const Renderer& renderer, const Rig& rig, const PoseSpline&
 /// Binary PCD, fields x y z as float. Throws std::runtime_error naming the file.
 void WriteBinaryPcd(const std::string& path, const PointMap& map);
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -6,7 +6,7 @@
 
 #include "common/simd/lanes.h"
 
-namespace evit {
+namespace evit::simulation {
 
 float FastLog(float x) {
   // x = 2^e * m with m in [sqrt(1/2), sqrt(2)); log m = 2 atanh((m-1)/(m+1)).
@@ -143,4 +143,4 @@ void SortByTime(std::int32_t t0, std::int32_t t1, std::vector<EventSensor::Event
   events->swap(sorted);
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -6,7 +6,7 @@
 #include "common/events/event.h"
 #include "tools/simulation/random.h"
 
-namespace evit {
+namespace evit::simulation {
 
 struct EventSensorSettings {
   double threshold = 0.33;         // of log intensity
@@ -80,4 +80,4 @@ class NoiseSource {
 /// Sorts by time, keeping the given order among equal stamps; all stamps in (t0, t1].
 void SortByTime(std::int32_t t0, std::int32_t t1, std::vector<EventSensor::Event>* events);
 
-}  // namespace evit
+}  // namespace evit::simulation

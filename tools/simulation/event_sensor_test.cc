@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 using Event = EventSensor::Event;
@@ -140,4 +140,4 @@ TEST(SortByTime, KeepsTheOrderOfEqualStamps) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::simulation

@@ -4,7 +4,7 @@
 
 #include "tools/simulation/parallel.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 constexpr int kBatch = 16;  // images rendered side by side, then run through the sensor
@@ -91,4 +91,4 @@ EventCounts SimulateEvents(const Renderer& renderer, const PoseSpline& motion, c
   return counts;
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -9,7 +9,7 @@
 #include "tools/simulation/render_schedule.h"
 #include "tools/simulation/renderer.h"
 
-namespace evit {
+namespace evit::simulation {
 
 struct EventCounts {
   std::size_t positive = 0, negative = 0, noise = 0;  // noise: part of the other two
@@ -32,4 +32,4 @@ EventCounts SimulateEvents(const Renderer& renderer, const PoseSpline& motion, c
                            const std::function<void(const EventArray&)>& sink,
                            const std::function<void(double)>& progress);
 
-}  // namespace evit
+}  // namespace evit::simulation

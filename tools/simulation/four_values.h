@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace evit {
+namespace evit::simulation {
 
 /// Four values at a time, in a vector every x86-64 has: for code that compilers do not make vectors of. (GCC
 /// makes slow code of longer ones.)
@@ -16,4 +16,4 @@ inline Floats Clamp(Floats x, float high) {
   return low > top ? top : low;
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -4,7 +4,7 @@
 
 #include "tools/simulation/random.h"
 
-namespace evit {
+namespace evit::simulation {
 
 SimulatedImu SimulateImu(const PoseSpline& motion, const Rig& rig, const ImuSettings& settings, Utime begin,
                          Utime end, std::uint64_t seed) {
@@ -33,4 +33,4 @@ SimulatedImu SimulateImu(const PoseSpline& motion, const Rig& rig, const ImuSett
   return imu;
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -6,7 +6,7 @@
 #include "common/imu/imu_sample.h"
 #include "tools/simulation/pose_spline.h"
 
-namespace evit {
+namespace evit::simulation {
 
 struct ImuSettings {
   double accel_bias = 0.06;  // m/s^2, length of the first bias (direction by chance)
@@ -25,4 +25,4 @@ struct SimulatedImu {
 SimulatedImu SimulateImu(const PoseSpline& motion, const Rig& rig, const ImuSettings& settings, Utime begin,
                          Utime end, std::uint64_t seed);
 
-}  // namespace evit
+}  // namespace evit::simulation

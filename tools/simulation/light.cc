@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace evit {
+namespace evit::simulation {
 
 double Lamp::Factor(Utime t) const {
   if (on <= off) return 1;
@@ -21,4 +21,4 @@ double Cover::Factor(Utime t) const {
   return open * open;
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -2,7 +2,7 @@
 
 #include "common/time/utime.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// The lamp: ambient light falls to `share` from `off` to `on` (us of the sequence's clock), each over a
 /// ramp.
@@ -24,4 +24,4 @@ struct Cover {
   double Factor(Utime t) const;
 };
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -6,7 +6,7 @@
 
 #include "tools/simulation/random.h"
 
-namespace evit {
+namespace evit::simulation {
 
 void CutHoles(const MapHoles& holes, std::uint64_t seed, PointMap* map) {
   Random random(seed, 0x401E5);
@@ -28,4 +28,4 @@ void CutHoles(const MapHoles& holes, std::uint64_t seed, PointMap* map) {
   }
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

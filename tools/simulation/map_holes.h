@@ -4,7 +4,7 @@
 
 #include "common/map/point_map.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// Parts of the map that are missing.
 struct MapHoles {
@@ -16,4 +16,4 @@ struct MapHoles {
 /// is gone; the last ball takes no more than is still to go. The others stay in order.
 void CutHoles(const MapHoles& holes, std::uint64_t seed, PointMap* map);
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -6,7 +6,7 @@
 
 #include "tools/simulation/random.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 PointMap Cube(std::size_t n) {
@@ -54,4 +54,4 @@ TEST(CutHoles, IsSeededAndMayTakeNothing) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::simulation

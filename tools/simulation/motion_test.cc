@@ -14,7 +14,7 @@
 #include "tools/simulation/room.h"
 #include "tools/simulation/trajectory_source.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -253,4 +253,4 @@ TEST(LoadMotion, TellsTheFrameOfRealFiles) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::simulation

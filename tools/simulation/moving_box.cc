@@ -5,7 +5,7 @@
 
 #include "tools/simulation/scene_builder.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 constexpr double kSweep = 0.55;     // m to either side
@@ -69,4 +69,4 @@ std::vector<Surface> MovingBox::At(Utime t) const {
   return faces;
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -7,7 +7,7 @@
 #include "tools/simulation/pose_spline.h"
 #include "tools/simulation/scene.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// A textured box of 0.4 to 0.6 m that somebody moves to and fro before the camera, at 0.3 to 0.5 m/s: across
 /// the middle of what the camera sees on average, beyond the nearest place that the camera comes to. Seeded.
@@ -31,4 +31,4 @@ class MovingBox {
   double omega_, phase_, bob_phase_, yaw_;
 };
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace evit {
+namespace evit::simulation {
 
 void ParallelFor(int n, int threads, const std::function<void(int)>& work) {
   threads = std::min(threads, n);
@@ -34,4 +34,4 @@ void ParallelFor(int n, int threads, const std::function<void(int)>& work) {
   if (error) std::rethrow_exception(error);
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
@@ -88,4 +88,4 @@ float PlacedSurface::ShadeCurved(float x, float y, float inverse_depth) const {
                                 v * static_cast<float>(texture.height()), lod);
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

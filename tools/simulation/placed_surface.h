@@ -8,7 +8,7 @@
 #include "tools/simulation/four_values.h"
 #include "tools/simulation/scene.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// log2 with an error below 0.01, continuous: enough to choose a mip level.
 inline float ApproximateLog2(float x) {
@@ -78,4 +78,4 @@ struct PlacedSurface {
 bool PlaceSurface(const Surface& surface, std::int32_t index, const Eigen::Matrix3d& R_map_camera,
                   const Eigen::Vector3d& p_map_camera, double focal, PlacedSurface* placed);
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 constexpr int kOrder = PoseSpline::kOrder;
@@ -162,4 +162,4 @@ PoseSpline PoseSpline::Fit(const Trajectory& poses, double knot_spacing) {
   return spline;
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

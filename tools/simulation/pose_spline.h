@@ -8,7 +8,7 @@
 #include "common/geometry/se3.h"
 #include "common/time/utime.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// A smooth motion: uniform B-splines of degree 5 (four continuous derivatives), the position as a plain
 /// spline, the rotation as a cumulative spline on SO(3) (Kim et al. 1995; derivatives after Sommer et al.,
@@ -56,4 +56,4 @@ class PoseSpline {
 /// Values of the kOrder basis functions (or their `derivative`-th derivatives in u) at u in 0..1.
 std::array<double, PoseSpline::kOrder> SplineBasis(double u, int derivative);
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -6,7 +6,7 @@
 
 #include "tools/simulation/imu_simulator.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 // A hand-held kind of motion, known in closed form.
@@ -144,4 +144,4 @@ TEST(SimulatedImu, NoiseHasTheRigsDensity) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::simulation

@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 constexpr Utime kHalfWindow = 5'000;
@@ -69,4 +69,4 @@ void Preview::Write(const PointMap& map, const std::function<std::string(const s
   }
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -11,7 +11,7 @@
 #include "tools/simulation/pose_spline.h"
 #include "tools/simulation/renderer.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// Pictures for people: rendered image | events of 10 ms (red positive, blue negative) | the map projected at
 /// the true pose over the same events. The map must lie on the events.
@@ -39,4 +39,4 @@ class Preview {
   std::vector<Instant> instants_;
 };
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace evit {
+namespace evit::simulation {
 
 /// Seeded random numbers, the same on every platform (no std::*_distribution). Each purpose takes a `stream`
 /// of its own, so that drawing more numbers for one does not change the others. Generator: SplitMix64.
@@ -53,4 +53,4 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace evit
+}  // namespace evit::simulation

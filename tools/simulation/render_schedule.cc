@@ -5,7 +5,7 @@
 
 #include "tools/simulation/parallel.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 constexpr Utime kInterval = 10'000;                // between speed estimates
@@ -79,4 +79,4 @@ RenderSchedule PlanRenders(const PoseSpline& motion, const Rig& rig, const Scene
   return schedule;
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -6,7 +6,7 @@
 #include "tools/simulation/pose_spline.h"
 #include "tools/simulation/scene.h"
 
-namespace evit {
+namespace evit::simulation {
 
 struct ImageSpeed {
   double mean = 0, median = 0, p95 = 0, max = 0;  // px/s
@@ -23,4 +23,4 @@ struct RenderSchedule {
 RenderSchedule PlanRenders(const PoseSpline& motion, const Rig& rig, const Scene& scene, Utime begin,
                            Utime end, double max_step_px, int threads);
 
-}  // namespace evit
+}  // namespace evit::simulation

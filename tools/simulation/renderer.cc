@@ -7,7 +7,7 @@
 #include "tools/simulation/four_values.h"
 #include "tools/simulation/screen_span.h"
 
-namespace evit {
+namespace evit::simulation {
 
 Renderer::Renderer(const Camera& camera, const Scene& scene)
     : camera_(camera), scene_(scene), focal_(static_cast<float>(0.5 * (camera.fx + camera.fy))) {
@@ -128,4 +128,4 @@ void Renderer::ShadePlane(const PlacedSurface& p, std::size_t begin, std::size_t
   }
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

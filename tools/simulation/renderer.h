@@ -8,7 +8,7 @@
 #include "tools/simulation/placed_surface.h"
 #include "tools/simulation/scene.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// One rendered view, row-major, width x height; keep it between renders, it is working memory too.
 struct View {
@@ -48,4 +48,4 @@ class Renderer {
   std::vector<float> ray_x_, ray_y_;  // per pixel, z == 1; NaN where the lens model has no ray
 };
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -8,7 +8,7 @@
 #include "tools/simulation/edge_map.h"
 #include "tools/simulation/room.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 Camera TestCamera() {
@@ -152,4 +152,4 @@ TEST(EdgeMap, PointsLieOnSurfaces) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::simulation

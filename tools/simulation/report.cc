@@ -5,7 +5,7 @@
 
 #include "tools/simulation/sequence_files.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 // Just enough JSON for a flat report with sections.
@@ -124,4 +124,4 @@ void WriteReport(const std::string& path, const SimulationSettings& settings, co
   if (!file) throw std::runtime_error("cannot write " + path);
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -13,7 +13,7 @@
 #include "tools/simulation/random.h"
 #include "tools/simulation/renderer.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 void WriteImage(const std::string& path, const cv::Mat& image) {
@@ -94,4 +94,4 @@ void WriteRgbdViews(const std::string& folder, const Scene& scene, const Rig& ri
   if (!poses || !intrinsics) throw std::runtime_error("cannot write " + folder + "/poses.txt and K.txt");
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -9,7 +9,7 @@
 #include "tools/simulation/pose_spline.h"
 #include "tools/simulation/scene.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// The camera without its lens distortion: same size, focal lengths and centre.
 Camera Rectified(const Camera& camera);
@@ -23,4 +23,4 @@ void WriteRgbdViews(const std::string& folder, const Scene& scene, const Rig& ri
                     const std::vector<Utime>& times, const MapSettings& settings, std::uint64_t seed,
                     int threads);
 
-}  // namespace evit
+}  // namespace evit::simulation

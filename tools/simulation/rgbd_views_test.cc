@@ -11,7 +11,7 @@
 #include "tools/simulation/room.h"
 #include "tools/simulation/trajectory_source.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -160,4 +160,4 @@ TEST_F(RgbdViewsTest, SaysWhereItCannotWrite) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::simulation

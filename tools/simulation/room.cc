@@ -6,7 +6,7 @@
 
 #include "tools/simulation/scene_builder.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 using Eigen::Vector3d;
@@ -160,4 +160,4 @@ Scene MakeRoom(std::uint64_t seed, RoomKind kind) {
   return b.Take();
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -4,7 +4,7 @@
 
 #include "tools/simulation/scene.h"
 
-namespace evit {
+namespace evit::simulation {
 
 enum class RoomKind {
   kFurnished,
@@ -16,4 +16,4 @@ enum class RoomKind {
 /// free space is a box around (-0.5, 0, 1.35).
 Scene MakeRoom(std::uint64_t seed, RoomKind kind = RoomKind::kFurnished);
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 // Each returns the depth of the front-side hit, or infinity.
@@ -70,4 +70,4 @@ Hit CastRay(const Scene& scene, const Eigen::Vector3d& origin, const Eigen::Vect
   return hit;
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

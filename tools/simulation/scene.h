@@ -7,7 +7,7 @@
 
 #include "tools/simulation/texture.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// One surface of a scene, in the map frame (metres, z up). Only its front is seen.
 struct Surface {
@@ -50,4 +50,4 @@ struct Hit {
 };
 Hit CastRay(const Scene& scene, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
 
-}  // namespace evit
+}  // namespace evit::simulation

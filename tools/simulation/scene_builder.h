@@ -10,7 +10,7 @@
 #include "tools/simulation/scene.h"
 #include "tools/simulation/texture_painter.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// Puts textured pieces into a scene, with seeded random choices.
 class SceneBuilder {
@@ -105,4 +105,4 @@ class SceneBuilder {
   Scene scene_;
 };
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 using Polygon = std::vector<Eigen::Vector3d>;
@@ -142,4 +142,4 @@ bool FindScreenSpans(const Camera& camera, const double bound_x[2], const double
   return seen;
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <system_error>
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -93,4 +93,4 @@ void WriteTruth(const std::string& path, const Motion& motion, const SimulatedIm
   WriteTum(path, truth);
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -7,7 +7,7 @@
 #include "tools/simulation/imu_simulator.h"
 #include "tools/simulation/simulator.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// A folder beside the final one that becomes it only when everything is written.
 class StagedFolder {
@@ -35,4 +35,4 @@ void WriteTruth(const std::string& path, const Motion& motion, const SimulatedIm
 void WriteReport(const std::string& path, const SimulationSettings& settings,
                  const SimulationSummary& summary);
 
-}  // namespace evit
+}  // namespace evit::simulation

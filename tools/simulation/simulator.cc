@@ -14,7 +14,7 @@
 #include "tools/simulation/room.h"
 #include "tools/simulation/sequence_files.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 void Check(const SimulationSettings& s, const Rig& rig) {
@@ -152,7 +152,8 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
   disturbances.box = box.get();
   Preview preview(renderer, rig, motion.spline, motion.begin, motion.end, settings.previews, box.get());
   // Event stamps are in the camera's clock.
-  EventFileWriter writer(folder.File(base + ".left_event.hdf5"), motion.begin - rig.camera_time_offset);
+  formats::EventFileWriter writer(folder.File(base + ".left_event.hdf5"),
+                                  motion.begin - rig.camera_time_offset);
   EventArray shifted;
   summary.events = SimulateEvents(
       renderer, motion.spline, rig, schedule, disturbances, settings.sensor, settings.seed, settings.threads,
@@ -172,4 +173,4 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
   return summary;
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

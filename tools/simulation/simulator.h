@@ -12,7 +12,7 @@
 #include "tools/simulation/room.h"
 #include "tools/simulation/trajectory_source.h"
 
-namespace evit {
+namespace evit::simulation {
 
 struct SimulationSettings {
   TrajectorySettings trajectory;
@@ -60,4 +60,4 @@ std::string RoomName(RoomKind room);
 SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, const std::string& rig_name,
                            const std::function<void(double)>& progress);
 
-}  // namespace evit
+}  // namespace evit::simulation

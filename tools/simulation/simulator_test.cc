@@ -13,7 +13,7 @@
 #include "tools/formats/vector/event_file.h"
 #include "tools/simulation/room.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,7 +68,7 @@ class SimulatorTest : public ::testing::Test {
 };
 
 EventArray ReadEvents(const fs::path& path) {
-  EventFileReader reader(path.string());
+  formats::EventFileReader reader(path.string());
   EventArray all, part;
   while (reader.Read(10'000, &part) > 0) {
     for (std::size_t i = 0; i < part.size(); ++i) all.push_back(part.t[i], part.x[i], part.y[i], part.p[i]);
@@ -232,4 +232,4 @@ TEST_F(SimulatorTest, CutsAFileAndRefusesWhatIsNotInIt) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::simulation

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-namespace evit {
+namespace evit::simulation {
 
 Texture::Texture(const cv::Mat& picture, float texel_size, bool smooth) : texel_size_(texel_size) {
   cv::Mat image = picture;
@@ -26,4 +26,4 @@ Texture::Texture(const cv::Mat& picture, float texel_size, bool smooth) : texel_
   }
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -7,7 +7,7 @@
 
 #include "tools/simulation/four_values.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// A picture (CV_32F, grey 0..255) with its mip levels, filtered trilinearly. Beyond its border it continues
 /// with the border's value.
@@ -98,4 +98,4 @@ inline Floats Texture::Sample(Floats s, Floats t, Floats lod) const {
   return fine + share * (SampleLevel(levels_[level + 1], s, t) - fine);
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

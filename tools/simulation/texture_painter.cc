@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 // Pictures are painted at twice their resolution and then averaged, which smooths the shapes' borders.
@@ -184,4 +184,4 @@ cv::Mat PaintPicture(Paint paint, int width, int height, double texel_size, doub
   return picture;
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

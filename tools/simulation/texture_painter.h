@@ -4,7 +4,7 @@
 
 #include "tools/simulation/random.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// Kinds of procedural pictures.
 enum class Paint {
@@ -22,4 +22,4 @@ enum class Paint {
 /// A CV_32F picture, grey 10..250, of width x height texels of `texel_size` metres. `base`: mean grey.
 cv::Mat PaintPicture(Paint paint, int width, int height, double texel_size, double base, Random* random);
 
-}  // namespace evit
+}  // namespace evit::simulation

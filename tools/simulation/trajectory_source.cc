@@ -11,7 +11,7 @@
 
 #include "tools/simulation/builtin_motion.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 constexpr Utime kMargin = 300'000;  // of poses beyond the clip, so that the spline's ends are well supported
@@ -204,4 +204,4 @@ MotionSpeed MeasureMotionSpeed(const Motion& motion, const Rig& rig) {
   return {mean(speeds), p99(&speeds), mean(rates), p99(&rates)};
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -8,7 +8,7 @@
 #include "tools/simulation/scene.h"
 #include "tools/simulation/tremor.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// What the poses of a trajectory file are.
 enum class TrajectoryFrame {
@@ -53,4 +53,4 @@ struct MotionSpeed {
 };
 MotionSpeed MeasureMotionSpeed(const Motion& motion, const Rig& rig);
 
-}  // namespace evit
+}  // namespace evit::simulation

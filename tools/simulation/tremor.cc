@@ -6,7 +6,7 @@
 
 #include "tools/simulation/random.h"
 
-namespace evit {
+namespace evit::simulation {
 namespace {
 
 constexpr double kTwoPi = 6.283185307179586;
@@ -65,4 +65,4 @@ PoseSpline AddTremor(const PoseSpline& motion, const Tremor& tremor, double knot
   return PoseSpline::Fit(poses, knot);
 }
 
-}  // namespace evit
+}  // namespace evit::simulation

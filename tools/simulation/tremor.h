@@ -5,7 +5,7 @@
 #include "common/evaluation/trajectory.h"
 #include "tools/simulation/pose_spline.h"
 
-namespace evit {
+namespace evit::simulation {
 
 /// A hand's tremor: narrow-band shaking about `hz`, in translation and rotation of the body.
 struct Tremor {
@@ -19,4 +19,4 @@ struct Tremor {
 /// shares. `knot_spacing`: s, of the motion without tremor.
 PoseSpline AddTremor(const PoseSpline& motion, const Tremor& tremor, double knot_spacing, std::uint64_t seed);
 
-}  // namespace evit
+}  // namespace evit::simulation

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace evit {
+namespace evit::terminal {
 
 /// Progress of long work on stderr: a bar on a terminal, a line every ten per cent elsewhere.
 class ProgressBar {
@@ -54,4 +54,4 @@ class ProgressBar {
   int last_ = 0;
 };
 
-}  // namespace evit
+}  // namespace evit::terminal

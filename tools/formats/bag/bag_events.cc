@@ -2,7 +2,7 @@
 
 #include "tools/formats/bag/ros_messages.h"
 
-namespace evit {
+namespace evit::formats {
 
 BagEvents::BagEvents(const BagFiles& files, const std::string& topic, int width, int height)
     : name_(files.Names() + ": " + topic), reader_(files, {topic}), filter_(width, height) {}
@@ -16,4 +16,4 @@ bool BagEvents::Read(EventArray* events) {
   return events->size() > 0;
 }
 
-}  // namespace evit
+}  // namespace evit::formats

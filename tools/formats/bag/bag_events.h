@@ -5,7 +5,7 @@
 #include "tools/formats/bag/bag_reader.h"
 #include "tools/formats/import/event_source.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// The events of one topic.
 class BagEvents : public EventSource {
@@ -23,4 +23,4 @@ class BagEvents : public EventSource {
   EventFilter filter_;
 };
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 std::string Join(const std::vector<std::string>& words, const char* gap) {
@@ -70,4 +70,4 @@ std::string BagFiles::FindTopic(const std::vector<std::string>& types, const std
   return candidates.empty() ? "" : candidates.front();
 }
 
-}  // namespace evit
+}  // namespace evit::formats

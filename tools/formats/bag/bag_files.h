@@ -9,7 +9,7 @@ namespace rosbag {
 class Bag;
 }
 
-namespace evit {
+namespace evit::formats {
 
 /// ROS 1 bags, opened together as one recording.
 class BagFiles {
@@ -39,4 +39,4 @@ class BagFiles {
   std::map<std::string, std::string> types_;  // topic to type
 };
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -10,7 +10,7 @@
 #include "tests/helpers/ros_bags.h"
 #include "tools/formats/bag/ros_messages.h"
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 using ::testing::AllOf;
@@ -67,4 +67,4 @@ TEST_F(BagFilesTest, WhatIsNoWholeBagIsRefused) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::formats

@@ -6,7 +6,7 @@
 #include "tools/formats/bag/bag_events.h"
 #include "tools/formats/bag/ros_messages.h"
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 // IMU and truth in one pass: they are often in one file with the events, which takes long to go through.
@@ -50,4 +50,4 @@ ImportSummary ImportBag(const BagImport& job, const std::function<void(double)>&
   return ImportLog(job, &events, std::move(streams), progress);
 }
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -7,7 +7,7 @@
 #include "common/geometry/rig.h"
 #include "tools/formats/import/import_log.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// A recording in one or several ROS 1 bags, to become an LCM log: dvs_msgs or prophesee_event_msgs
 /// EventArray, sensor_msgs/Imu and, where there is one, geometry_msgs/PoseStamped as ground truth.
@@ -21,4 +21,4 @@ struct BagImport : ImportTarget {
 /// outside the sensor is counted and left out.
 ImportSummary ImportBag(const BagImport& job, const std::function<void(double)>& progress);
 
-}  // namespace evit
+}  // namespace evit::formats

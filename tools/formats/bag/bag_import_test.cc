@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <random>
 
-#include "tests/helpers/ros_bags.h"
 #include "tests/helpers/imported_log.h"
+#include "tests/helpers/ros_bags.h"
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 using ::testing::AllOf;
@@ -177,4 +177,4 @@ TEST_F(BagImportTest, ADamagedMessageIsNamed) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::formats

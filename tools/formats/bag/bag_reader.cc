@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 // More than any driver sends at once; a forged length must not make us reserve what it says.
@@ -64,4 +64,4 @@ void BagReader::Fail(const std::string& what) const {
                            what);
 }
 
-}  // namespace evit
+}  // namespace evit::formats

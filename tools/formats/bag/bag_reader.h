@@ -9,7 +9,7 @@
 
 #include "tools/formats/bag/bag_files.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// The serialized messages of some topics, over all files in order of the time they were recorded at.
 class BagReader {
@@ -42,4 +42,4 @@ class BagReader {
   std::vector<std::uint8_t> bytes_;
 };
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 constexpr std::size_t kEventBytes = 13;  // u16 x, u16 y, u32 s, u32 ns, u8 polarity
@@ -96,4 +96,4 @@ StampedPose DecodePoseStamped(const std::uint8_t* data, std::size_t size) {
   return s;
 }
 
-}  // namespace evit
+}  // namespace evit::formats

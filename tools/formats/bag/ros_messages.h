@@ -8,7 +8,7 @@
 #include "common/imu/imu_sample.h"
 #include "tools/formats/import/drop_counts.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// Serialized ROS 1 messages, decoded without ROS's generated code. ROS's nanoseconds are rounded to
 /// microseconds. Lengths are checked before anything is reserved; all throw std::runtime_error saying which
@@ -26,4 +26,4 @@ ImuSample DecodeImu(const std::uint8_t* data, std::size_t size);
 /// The quaternion as it stands, of whatever length.
 StampedPose DecodePoseStamped(const std::uint8_t* data, std::size_t size);
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -5,7 +5,7 @@
 
 #include "tests/helpers/ros_bags.h"
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 using ::testing::HasSubstr;
@@ -61,4 +61,4 @@ TEST(RosMessages, AForgedCountReservesNothing) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::formats

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-namespace evit {
+namespace evit::formats {
 
 std::string DropText(const DropCounts& dropped, const std::string& what) {
   if (dropped.total() == 0) return "";
@@ -24,4 +24,4 @@ void AppendPose(StampedPose pose, bool finite, Trajectory* truth, DropCounts* dr
   AppendValid(pose, valid, truth, dropped);
 }
 
-}  // namespace evit
+}  // namespace evit::formats

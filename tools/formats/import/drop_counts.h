@@ -7,7 +7,7 @@
 #include "common/evaluation/trajectory.h"
 #include "common/time/utime.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// What was left out of one stream, and why.
 struct DropCounts {
@@ -56,4 +56,4 @@ void AppendValid(const Item& item, bool valid, List* list, DropCounts* dropped) 
 /// The same for a pose as it was read: its quaternion is made of length 1, or is none.
 void AppendPose(StampedPose pose, bool finite, Trajectory* truth, DropCounts* dropped);
 
-}  // namespace evit
+}  // namespace evit::formats

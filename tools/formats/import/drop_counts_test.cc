@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 TEST(DropCounts, AreSaidWithTheirReasonsOrNotAtAll) {
@@ -27,4 +27,4 @@ TEST(DropCounts, AFilterKeepsWhatIsInOrderAndOnTheSensor) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::formats

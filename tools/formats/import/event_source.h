@@ -5,7 +5,7 @@
 #include "common/events/event.h"
 #include "tools/formats/import/drop_counts.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// Where the events of an import come from, in pieces, so that a long recording never lies in memory whole.
 class EventSource {
@@ -18,4 +18,4 @@ class EventSource {
   virtual DropCounts dropped() const { return {}; }
 };
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -8,7 +8,7 @@
 #include "common/evaluation/decimal_time.h"
 #include "tools/formats/import/stream_writer.h"
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 // A longer hole is a damaged time stamp, or two clocks: its silence would fill the log with empty packets.
@@ -126,4 +126,4 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* events, ImportS
   return summary;
 }
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -11,7 +11,7 @@
 #include "tools/formats/import/drop_counts.h"
 #include "tools/formats/import/event_source.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// What every source of an import is asked for.
 struct ImportTarget {
@@ -41,4 +41,4 @@ struct ImportSummary {
 ImportSummary ImportLog(const ImportTarget& target, EventSource* events, ImportStreams streams,
                         const std::function<void(double)>& progress);
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -10,7 +10,7 @@
 
 #include "common/evaluation/decimal_time.h"
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 constexpr std::size_t kBuffer = 1 << 20;  // bytes; no line of numbers is as long
@@ -115,4 +115,4 @@ double LineReader::share() const {
   return size_ > 0 ? (n_read_ - static_cast<double>(end_ - next_)) / size_ : 1;
 }
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -9,7 +9,7 @@
 
 #include "common/time/utime.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// Reads numbers from a text file, line by line, at the speed of the disk: no stream, no copy, no locale.
 /// Words stand apart by blanks, tabs or commas; empty lines and those that begin with '#' are passed over.
@@ -49,4 +49,4 @@ class LineReader {
   double size_ = 0, n_read_ = 0;  // bytes
 };
 
-}  // namespace evit
+}  // namespace evit::formats

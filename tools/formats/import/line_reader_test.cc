@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 using ::testing::HasSubstr;
@@ -82,4 +82,4 @@ TEST_F(LineReaderTest, NamesFileLineAndLayout) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::formats

@@ -6,7 +6,7 @@
 #include "common/bus/codec.h"
 #include "common/events/wire/event_wire.h"
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 constexpr Utime kPacketSpan = 5'000;  // us
@@ -87,4 +87,4 @@ void StreamWriter::Close(Utime end) {
   log_.Close();
 }
 
-}  // namespace evit
+}  // namespace evit::formats

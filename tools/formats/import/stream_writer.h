@@ -10,7 +10,7 @@
 #include "common/events/event.h"
 #include "common/imu/imu_sample.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// Writes events, IMU samples and ground truth as one log in order of data time. Samples and truth are known
 /// from the start; events come in pieces.
@@ -43,4 +43,4 @@ class StreamWriter {
   std::vector<std::uint8_t> buffer_;
 };
 
-}  // namespace evit
+}  // namespace evit::formats

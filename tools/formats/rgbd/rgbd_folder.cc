@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ RgbdView RgbdFolder::Load(std::size_t k) const {
   return view;
 }
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -6,7 +6,7 @@
 
 #include "common/photometric/rgbd_fusion.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// A folder of posed RGB-D images: images/NAME (colour or grey, 8 or 16 bit), depth/NAME.png (16 bit, mm, 0:
 /// none), poses.txt (one row per image in the order of their names: 16 numbers, row-major 4x4, camera to map)
@@ -27,4 +27,4 @@ class RgbdFolder {
   Camera camera_;                   // without size
 };
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -9,7 +9,7 @@
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ TEST(RgbdFolderReal, HoloLensViewsMakeAMap) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::formats

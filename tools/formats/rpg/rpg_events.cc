@@ -1,6 +1,6 @@
 #include "tools/formats/rpg/rpg_events.h"
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 constexpr std::size_t kPiece = 100'000;  // events
@@ -28,4 +28,4 @@ bool RpgEvents::Read(EventArray* events) {
   return events->size() > 0;
 }
 
-}  // namespace evit
+}  // namespace evit::formats

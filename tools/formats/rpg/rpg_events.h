@@ -5,7 +5,7 @@
 #include "tools/formats/import/event_source.h"
 #include "tools/formats/import/line_reader.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// RPG's events.txt: `t x y p` (s, pixels, 1 brighter or 0 darker).
 class RpgEvents : public EventSource {
@@ -23,4 +23,4 @@ class RpgEvents : public EventSource {
   EventFilter filter_;
 };
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -8,7 +8,7 @@
 #include "tools/formats/rpg/rpg_events.h"
 #include "tools/formats/rpg/rpg_tables.h"
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,4 +47,4 @@ ImportSummary ImportRpg(const RpgImport& job, const std::function<void(double)>&
   return summary;
 }
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -6,7 +6,7 @@
 #include "common/geometry/rig.h"
 #include "tools/formats/import/import_log.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// The MPU6150 in a DAVIS240C. Densities: its data sheet (0.005 deg/s/sqrt(Hz), 400 ug/sqrt(Hz)). Random
 /// walks: no sheet gives them; these are usual for IMUs of its class.
@@ -28,4 +28,4 @@ struct RpgImport : ImportTarget {
 /// counted and left out.
 ImportSummary ImportRpg(const RpgImport& job, const std::function<void(double)>& progress);
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -13,7 +13,7 @@
 #include "common/evaluation/decimal_time.h"
 #include "tests/helpers/imported_log.h"
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 using ::testing::AllOf;
@@ -155,4 +155,4 @@ TEST_F(RpgImportTest, StreamsOfTwoClocksAreRefused) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::formats

@@ -6,7 +6,7 @@
 
 #include "tools/formats/import/line_reader.h"
 
-namespace evit {
+namespace evit::formats {
 
 std::vector<ImuSample> ReadRpgImu(const std::string& path, DropCounts* dropped) {
   LineReader lines(path, "t ax ay az gx gy gz");
@@ -67,4 +67,4 @@ double ImuRate(const std::vector<ImuSample>& samples) {
   return std::round(1e6 / static_cast<double>(*middle));
 }
 
-}  // namespace evit
+}  // namespace evit::formats

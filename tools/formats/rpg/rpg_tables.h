@@ -8,7 +8,7 @@
 #include "common/imu/imu_sample.h"
 #include "tools/formats/import/drop_counts.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// The small files of RPG's format. All throw std::runtime_error naming file, line and remedy; rows out of
 /// order, not finite or without a rotation are counted and left out.
@@ -25,4 +25,4 @@ Camera ReadRpgCamera(const std::string& path, int width, int height);
 /// Samples per second, from the median distance of two, to the nearest whole number.
 double ImuRate(const std::vector<ImuSample>& samples);
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -6,7 +6,7 @@
 
 #include "common/events/event.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// VECtor's `*.synced.left_event.hdf5` (DSEC layout): events/{x u16, y u16, p u8, t u32 us after t_offset},
 /// t_offset i64[1] us, ms_to_idx u64. Chunked; Zstandard filter 32015, registered in process (no plug-in
@@ -38,4 +38,4 @@ class EventFileReader {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace evit
+}  // namespace evit::formats

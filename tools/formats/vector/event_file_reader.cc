@@ -6,7 +6,7 @@
 #include "tools/formats/vector/h5_handle.h"
 #include "tools/formats/vector/zstd_filter.h"
 
-namespace evit {
+namespace evit::formats {
 
 struct EventFileReader::Impl {
   std::string path;
@@ -100,4 +100,4 @@ std::size_t EventFileReader::Read(std::size_t max_events, EventArray* events) {
   return n;
 }
 
-}  // namespace evit
+}  // namespace evit::formats

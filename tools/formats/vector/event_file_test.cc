@@ -8,7 +8,7 @@
 #include <fstream>
 #include <random>
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 using ::testing::HasSubstr;
@@ -137,4 +137,4 @@ TEST_F(EventFileTest, UnwritableFolderIsNamed) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::formats

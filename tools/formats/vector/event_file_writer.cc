@@ -6,7 +6,7 @@
 #include "tools/formats/vector/h5_handle.h"
 #include "tools/formats/vector/zstd_filter.h"
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 constexpr hsize_t kChunk = 1 << 17;  // elements: half a megabyte of stamps
@@ -130,4 +130,4 @@ void EventFileWriter::Close() {
   w.closed = true;
 }
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace evit {
+namespace evit::formats {
 
 /// An HDF5 identifier that closes itself.
 class H5Handle {
@@ -31,4 +31,4 @@ class H5Handle {
   Closer close_ = nullptr;
 };
 
-}  // namespace evit
+}  // namespace evit::formats

@@ -8,7 +8,7 @@
 
 #include "common/evaluation/decimal_time.h"
 
-namespace evit {
+namespace evit::formats {
 
 std::vector<ImuSample> ReadImuFile(const std::string& path) {
   std::ifstream file(path);
@@ -40,4 +40,4 @@ std::vector<ImuSample> ReadImuFile(const std::string& path) {
   return samples;
 }
 
-}  // namespace evit
+}  // namespace evit::formats

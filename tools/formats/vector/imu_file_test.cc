@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 using ::testing::HasSubstr;
@@ -43,4 +43,4 @@ TEST(ImuFile, NamesTheLineOfABadRow) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::formats

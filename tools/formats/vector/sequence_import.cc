@@ -8,7 +8,7 @@
 #include "tools/formats/vector/event_file.h"
 #include "tools/formats/vector/imu_file.h"
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 namespace fs = std::filesystem;
@@ -78,4 +78,4 @@ ImportSummary ImportSequence(const SequenceImport& job, const std::function<void
   return ImportLog(job, &events, std::move(streams), progress);
 }
 
-}  // namespace evit
+}  // namespace evit::formats

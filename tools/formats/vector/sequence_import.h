@@ -6,7 +6,7 @@
 #include "common/geometry/rig.h"
 #include "tools/formats/import/import_log.h"
 
-namespace evit {
+namespace evit::formats {
 
 /// A sequence of the VECtor benchmark on disk, to become an LCM log.
 struct SequenceImport : ImportTarget {
@@ -19,4 +19,4 @@ struct SequenceImport : ImportTarget {
 /// processed, they hold none. An unknown name lists the sequences found.
 ImportSummary ImportSequence(const SequenceImport& job, const std::function<void(double)>& progress);
 
-}  // namespace evit
+}  // namespace evit::formats

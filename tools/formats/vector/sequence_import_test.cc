@@ -16,7 +16,7 @@
 #include "common/events/wire/event_wire.h"
 #include "tools/formats/vector/event_file.h"
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 using ::testing::AllOf;
@@ -230,4 +230,4 @@ TEST_F(SequenceImportTest, UnusableInputsAndOutputsAreNamed) {
 }
 
 }  // namespace
-}  // namespace evit
+}  // namespace evit::formats

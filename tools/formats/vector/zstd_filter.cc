@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-namespace evit {
+namespace evit::formats {
 namespace {
 
 // Largest chunk that is believed: a forged frame header must not make us reserve what it says.
@@ -43,4 +43,4 @@ void RegisterZstdFilter() {
   if (H5Zregister(&filter) < 0) throw std::runtime_error("HDF5 refuses to register the Zstandard filter");
 }
 
-}  // namespace evit
+}  // namespace evit::formats
