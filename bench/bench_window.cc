@@ -16,11 +16,12 @@ namespace {
 constexpr double kGravity = 9.81;
 const ImuNoise kNoise{7e-4, 1.3e-3, 7e-6, 6e-5};
 
-config::Window Config(int size) {
-  config::Window w;
-  w.set_size(size), w.set_kernel(config::Window::CAUCHY), w.set_first_node(config::Window::PRIOR);
-  w.set_image_sigma(50), w.set_robust_scale(80), w.set_max_iterations(50), w.set_imu_noise_factor(2);
-  return w;
+WindowOptions Options(int size) {
+  WindowOptions o;
+  o.size = size;
+  o.image_sigma = 50;
+  o.max_iterations = 50;
+  return o;
 }
 
 AlignmentSettings Alignment() {
@@ -72,7 +73,7 @@ StatePrior Prior(const BodyState& mean) {
 void Ours(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0)), points = static_cast<int>(state.range(1));
   const std::deque<WindowNode> nodes = Nodes(n, points);
-  SlidingWindow window(Alignment(), kGravity, Config(n));
+  SlidingWindow window(Alignment(), kGravity, Options(n));
   double iterations = 0;
   for (auto _ : state) {
     state.PauseTiming();

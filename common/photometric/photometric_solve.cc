@@ -41,10 +41,9 @@ double ImageSpeed(const PhotometricScene& scene, const SE3& pose, const Twist& t
 
 PhotometricTracker::Solution PhotometricTracker::Solve(const PhotometricFrame& frame,
                                                        const SE3& expected) const {
-  const config::Photometric& settings = config_.photometric();
+  const PhotometricOptions& settings = options_.photometric;
   const double seconds = ToSeconds(frame.end - frame.begin);
-  const EventImage events(frame.counts, settings.contrast_threshold(), settings.blur_sigma_px(),
-                          settings.levels());
+  const EventImage events(frame.counts, settings.contrast_threshold, settings.blur_sigma_px, settings.levels);
   Solution solution;
   solution.pose = expected;
   solution.origin = expected.p;
@@ -52,8 +51,8 @@ PhotometricTracker::Solution PhotometricTracker::Solve(const PhotometricFrame& f
   prior << state_.velocity, rate_;
   solution.twist = prior;
   Vector6d twist_sigma;
-  twist_sigma << Eigen::Vector3d::Constant(settings.sigma_velocity()),
-      Eigen::Vector3d::Constant(settings.sigma_rate());
+  twist_sigma << Eigen::Vector3d::Constant(settings.sigma_velocity),
+      Eigen::Vector3d::Constant(settings.sigma_rate);
 
   PhotometricScene scene;
   scene.T_camera_body = rig_.T_body_camera.Inverse();
@@ -61,14 +60,14 @@ PhotometricTracker::Solution PhotometricTracker::Solve(const PhotometricFrame& f
   scene.events = &events;
   scene.origin = solution.origin;
   scene.weight = kPointWeight;
-  scene.robust_scale = settings.robust_scale();
+  scene.robust_scale = settings.robust_scale;
   if (view_.log_intensity.empty()) return solution;
-  for (int level = settings.levels() - 1; level >= 0; --level) {
+  for (int level = settings.levels - 1; level >= 0; --level) {
     scene.level = level;
     scene.points.clear();
     const SE3 T = scene.T_camera_body * expected.Inverse();
-    for (const GradientPoint& g : FindGradientPoints(view_, level, settings.blur_sigma_px(),
-                                                     settings.min_gradient(), settings.max_points())) {
+    for (const GradientPoint& g : FindGradientPoints(view_, level, settings.blur_sigma_px,
+                                                     settings.min_gradient, settings.max_points)) {
       Eigen::Vector2d pixel;
       if (scene.camera.Project(T * g.point, &pixel) && scene.camera.Contains(pixel, kBorder * (2 << level)))
         scene.points.push_back(g);
@@ -88,12 +87,12 @@ PhotometricTracker::Solution PhotometricTracker::Solve(const PhotometricFrame& f
 
 void PhotometricTracker::MinimizeAt(const PhotometricScene& scene, const SE3& expected, const Twist& prior,
                                     Solution* solution) const {
-  const config::Photometric& settings = config_.photometric();
+  const PhotometricOptions& settings = options_.photometric;
   Vector6d pose_sigma, twist_sigma;
-  pose_sigma << Eigen::Vector3d::Constant(settings.sigma_position_m()),
-      Eigen::Vector3d::Constant(settings.sigma_rotation_rad());
-  twist_sigma << Eigen::Vector3d::Constant(settings.sigma_velocity()),
-      Eigen::Vector3d::Constant(settings.sigma_rate());
+  pose_sigma << Eigen::Vector3d::Constant(settings.sigma_position_m),
+      Eigen::Vector3d::Constant(settings.sigma_rotation_rad);
+  twist_sigma << Eigen::Vector3d::Constant(settings.sigma_velocity),
+      Eigen::Vector3d::Constant(settings.sigma_rate);
   BodyState state;
   state.T_map_body = solution->pose;
   StateBlocks blocks = ToBlocks(state);
@@ -106,7 +105,7 @@ void PhotometricTracker::MinimizeAt(const PhotometricScene& scene, const SE3& ex
                            blocks.pose.data(), twist.data());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = settings.max_iterations();
+  options.max_num_iterations = settings.max_iterations;
   options.function_tolerance = 1e-5;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;

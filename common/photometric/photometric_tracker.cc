@@ -18,8 +18,9 @@ constexpr double kMostLag = 0.5;          // of a frame's interval
 
 }  // namespace
 
-PhotometricTracker::PhotometricTracker(const Rig& rig, const config::Tracker& config, const SE3& T_map_body)
-    : rig_(rig), config_(config) {
+PhotometricTracker::PhotometricTracker(const Rig& rig, const PhotometricTrackerOptions& options,
+                                       const SE3& T_map_body)
+    : rig_(rig), options_(options) {
   state_.T_map_body = T_map_body;
 }
 
@@ -41,9 +42,9 @@ ViewQuery PhotometricTracker::NextQuery() const {
   ViewQuery query;
   const Utime ahead = std::min(last_interval_ > 0 ? last_interval_ : kQueryAhead, kLongestGuess);
   query.T_map_camera = PoseAfter(state_.T_map_body, ToSeconds(ahead)) * rig_.T_body_camera;
-  query.camera = ViewCamera(rig_.camera, config_.photometric().view_margin());
-  query.min_depth = config_.points().min_depth_m();
-  query.max_depth = config_.points().max_depth_m();
+  query.camera = ViewCamera(rig_.camera, options_.photometric.view_margin);
+  query.min_depth = options_.min_depth_m;
+  query.max_depth = options_.max_depth_m;
   return query;
 }
 
@@ -56,12 +57,11 @@ TrackerOutput PhotometricTracker::Process(const PhotometricFrame& frame) {
   const double dt = state_time_ != 0 ? std::max(0.0, ToSeconds(frame.t - state_time_)) : 0;
   const SE3 predicted = PoseAfter(state_.T_map_body, dt);
   const double seconds = ToSeconds(frame.end - frame.begin);
-  if (frame.n_events < config_.keyframes().min_events() || !(seconds > 0)) {
+  if (frame.n_events < options_.min_events || !(seconds > 0)) {
     Coast(frame, predicted, "too few events", &out);
   } else {
     // Events tell of their interval's middle, and are late by the way an edge goes before a pixel fires.
-    const double lag =
-        image_speed_ > 0 ? std::min(config_.surface().lag_px() / image_speed_, kMostLag * seconds) : 0;
+    const double lag = image_speed_ > 0 ? std::min(options_.lag_px / image_speed_, kMostLag * seconds) : 0;
     const double after_events = ToSeconds(frame.t - frame.begin) - 0.5 * seconds + lag;
     const Solution solution = Solve(frame, PoseAfter(predicted, -after_events));
     out.iterations = solution.iterations;
@@ -69,7 +69,7 @@ TrackerOutput PhotometricTracker::Process(const PhotometricFrame& frame) {
     out.quality.inlier_share = std::clamp(solution.quality.correlation, 0.0, 1.0);
     if (solution.quality.n_points < kMinPoints) {
       Coast(frame, predicted, "nothing of the map in view has a gradient", &out);
-    } else if (solution.quality.correlation < config_.photometric().min_correlation()) {
+    } else if (solution.quality.correlation < options_.photometric.min_correlation) {
       Coast(frame, predicted,
             Text("the map does not foretell the events (correlation %.2f)", solution.quality.correlation),
             &out);
@@ -100,9 +100,9 @@ void PhotometricTracker::Accept(const PhotometricFrame& frame, double after_even
   out->information.bottomRightCorner<9, 9>().setIdentity();
   // Without a correlated share: the weight of a point knows already that neighbours err together.
   covariance_ = PoseCovariance(out->information) +
-                CommonCovariance(solution.information, 0, config_.window().map_sigma_m()) +
+                CommonCovariance(solution.information, 0, options_.map_sigma_m) +
                 StampCovariance(state_.velocity, state_.T_map_body.q.conjugate() * rate_,
-                                1e-6 * config_.window().stamp_sigma_us());
+                                1e-6 * options_.stamp_sigma_us);
   out->covariance = covariance_;
   out->nodes.push_back({frame.t, frame.seq, state_});
 }
@@ -114,7 +114,7 @@ void PhotometricTracker::Coast(const PhotometricFrame& frame, const SE3& predict
     return;
   }
   const double bad = ToSeconds(frame.t - good_time_);
-  if (mode_ == TrackerMode::kLost || bad > config_.photometric().max_bad_s()) {
+  if (mode_ == TrackerMode::kLost || bad > options_.photometric.max_bad_s) {
     if (mode_ != TrackerMode::kLost) reason_ = why + Text(" for %.1f s", bad);
     mode_ = TrackerMode::kLost;
     state_.velocity.setZero();
@@ -128,8 +128,8 @@ void PhotometricTracker::Coast(const PhotometricFrame& frame, const SE3& predict
   out->image_speed = image_speed_;
   // Since the last good frame the velocity may have changed by as much as a frame is allowed to change it.
   Vector6d unknown;
-  unknown << Eigen::Vector3d::Constant(bad * config_.photometric().sigma_velocity()),
-      Eigen::Vector3d::Constant(bad * config_.photometric().sigma_rate());
+  unknown << Eigen::Vector3d::Constant(bad * options_.photometric.sigma_velocity),
+      Eigen::Vector3d::Constant(bad * options_.photometric.sigma_rate);
   out->covariance = covariance_ + Matrix6d(unknown.cwiseAbs2().asDiagonal());
   out->information.setIdentity();
   out->information.topLeftCorner<6, 6>() = out->covariance.inverse();

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "common/config/tracker.pb.h"
 #include "common/geometry/rig.h"
 #include "common/photometric/map_view.h"
+#include "common/photometric/photometric_options.h"
 #include "common/photometric/photometric_term.h"
 #include "common/tracking/tracker.h"
 
@@ -27,9 +27,8 @@ struct PhotometricFrame {
 /// open, from the contrast threshold and the velocity before.
 class PhotometricTracker {
  public:
-  /// `config` has its photometric part. `T_map_body`: pose at the first frame, to some centimetres and
-  /// degrees.
-  PhotometricTracker(const Rig& rig, const config::Tracker& config, const SE3& T_map_body);
+  /// `T_map_body`: pose at the first frame, to some centimetres and degrees.
+  PhotometricTracker(const Rig& rig, const PhotometricTrackerOptions& options, const SE3& T_map_body);
 
   /// Whatever it was doing: the body is here.
   void StartAnew(const SE3& T_map_body);
@@ -64,7 +63,7 @@ class PhotometricTracker {
   void Coast(const PhotometricFrame& frame, const SE3& predicted, const std::string& why, TrackerOutput* out);
 
   Rig rig_;
-  config::Tracker config_;
+  PhotometricTrackerOptions options_;
   MapView view_;
   TrackerMode mode_ = TrackerMode::kBootstrapping;
   std::string reason_ = "waiting for the first frame";

@@ -10,19 +10,16 @@ namespace {
 
 constexpr double kThreshold = 0.25;
 
-config::Tracker Config() {
-  config::Tracker c;
-  c.set_method(config::Tracker::EVPT);
-  c.mutable_keyframes()->set_min_events(200);
-  c.mutable_surface()->set_lag_px(0);
-  c.mutable_points()->set_min_depth_m(0.1);
-  c.mutable_points()->set_max_depth_m(12);
-  config::Photometric* p = c.mutable_photometric();
-  p->set_contrast_threshold(kThreshold), p->set_view_margin(0.08), p->set_blur_sigma_px(1), p->set_levels(2);
-  p->set_max_points(3000), p->set_min_gradient(0.03), p->set_robust_scale(1.5), p->set_max_iterations(10);
-  p->set_sigma_position_m(0.05), p->set_sigma_rotation_rad(0.05), p->set_sigma_velocity(0.5);
-  p->set_sigma_rate(1), p->set_min_correlation(0.6), p->set_max_bad_s(0.2);
-  return c;
+PhotometricTrackerOptions Options() {
+  PhotometricTrackerOptions o;
+  o.min_events = 200;
+  o.lag_px = o.map_sigma_m = o.stamp_sigma_us = 0;
+  o.photometric.contrast_threshold = kThreshold;
+  o.photometric.max_points = 3000;
+  o.photometric.min_gradient = 0.03;
+  o.photometric.min_correlation = 0.6;
+  o.photometric.max_bad_s = 0.2;
+  return o;
 }
 
 // Plays frame_builder and map_server in a synthetic room.
@@ -41,8 +38,8 @@ struct Bench {
     rig.T_body_camera = test::BodyCamera();
     return rig;
   }
-  explicit Bench(const SE3& start, const config::Tracker& config = Config())
-      : rig(MakeRig()), tracker(rig, config, start) {}
+  explicit Bench(const SE3& start, const PhotometricTrackerOptions& options = Options())
+      : rig(MakeRig()), tracker(rig, options, start) {}
 
   static SE3 Truth(Utime t) {
     const double s = ToSeconds(t);
@@ -97,9 +94,9 @@ TEST(PhotometricTracker, LateEventsCountAlongTheMotionInTheBodysFrame) {
   constexpr Utime kEnd = 1'300'000;
   Matrix6d with = Matrix6d::Zero(), without = Matrix6d::Zero();
   for (Matrix6d* covariance : {&without, &with}) {
-    config::Tracker config = Config();
-    config.mutable_window()->set_stamp_sigma_us(covariance == &with ? 1e6 * kSigma : 0);
-    Bench bench(Bench::Truth(1'000'000), config);
+    PhotometricTrackerOptions options = Options();
+    options.stamp_sigma_us = covariance == &with ? 1e6 * kSigma : 0;
+    Bench bench(Bench::Truth(1'000'000), options);
     for (Utime t = 1'000'000; t <= kEnd; t += Bench::kInterval) *covariance = bench.Step(t).covariance;
   }
   const SE3 truth = Bench::Truth(kEnd), next = Bench::Truth(kEnd + 1000);
@@ -158,7 +155,7 @@ TEST(PhotometricTracker, SaysLostWhereTheMapForetellsNothingAndComesBackWithAHin
 }
 
 TEST(PhotometricTracker, WithoutEventsItWaits) {
-  PhotometricTracker tracker(Bench::MakeRig(), Config(), {});
+  PhotometricTracker tracker(Bench::MakeRig(), Options(), {});
   PhotometricFrame frame;
   frame.t = frame.end = 1'000'000;
   frame.counts = cv::Mat(240, 320, CV_8UC1, cv::Scalar(128));

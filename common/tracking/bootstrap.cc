@@ -43,7 +43,7 @@ bool SolveChain(const std::vector<BootstrapFrame>& frames, double gravity, doubl
 }  // namespace
 
 BootstrapResult AlignVisualInertial(const std::vector<BootstrapFrame>& frames, double gravity,
-                                    const config::Bootstrap& config, double imu_noise_factor,
+                                    const BootstrapOptions& options, double imu_noise_factor,
                                     double position_sigma, double rotation_sigma) {
   BootstrapResult result;
   if (frames.size() < 3) {
@@ -62,7 +62,7 @@ BootstrapResult AlignVisualInertial(const std::vector<BootstrapFrame>& frames, d
     priors[k].information.diagonal().segment<3>(3).setConstant(1 / (rotation_sigma * rotation_sigma));
   }
   // A third of what would be refused is taken as one standard deviation of a sound sensor.
-  const double gyro_sigma = config.max_gyro_bias() / 3, accel_sigma = config.max_accel_bias() / 3;
+  const double gyro_sigma = options.max_gyro_bias / 3, accel_sigma = options.max_accel_bias / 3;
   priors[0].information.diagonal().segment<3>(9).setConstant(1 / (gyro_sigma * gyro_sigma));
   priors[0].information.diagonal().segment<3>(12).setConstant(1 / (accel_sigma * accel_sigma));
 
@@ -76,7 +76,7 @@ BootstrapResult AlignVisualInertial(const std::vector<BootstrapFrame>& frames, d
   }
   for (const StateBlocks& b : blocks) result.states.push_back(FromBlocks(b));
   const ImuBias& bias = result.states.back().bias;
-  if (bias.gyro.norm() > config.max_gyro_bias() || bias.accel.norm() > config.max_accel_bias()) {
+  if (bias.gyro.norm() > options.max_gyro_bias || bias.accel.norm() > options.max_accel_bias) {
     char text[160];
     std::snprintf(text, sizeof text,
                   "biases too large: gyro %.3f rad/s, accel %.2f m/s^2; is the map's z axis up?",

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "common/config/tracker.pb.h"
 #include "common/tracking/imu_factor.h"
+#include "common/tracking/tracker_options.h"
 
 namespace evit {
 
@@ -30,7 +30,7 @@ struct BootstrapResult {
 /// biases stands for what a calibrated sensor's biases can be: within a fraction of a second they are hardly
 /// observable.
 BootstrapResult AlignVisualInertial(const std::vector<BootstrapFrame>& frames, double gravity,
-                                    const config::Bootstrap& config, double imu_noise_factor,
+                                    const BootstrapOptions& options, double imu_noise_factor,
                                     double position_sigma = 0.003, double rotation_sigma = 0.005);
 
 }  // namespace evit

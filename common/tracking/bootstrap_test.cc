@@ -33,7 +33,7 @@ TEST(Bootstrap, FindsVelocitiesAndBiasesFromNoisyPoses) {
         imu = std::make_shared<Preintegration>(motion.Samples(t - 10'000, t, truth), ImuBias{}, noise);
       frames.push_back({t, pose, imu});
     }
-    const auto result = AlignVisualInertial(frames, 9.81, TestConfig().bootstrap(), 2.0);
+    const auto result = AlignVisualInertial(frames, 9.81, TestOptions().bootstrap, 2.0);
     ASSERT_TRUE(result.success) << result.reason;
     const BodyState expected = motion.State(1.6), &got = result.states.back();
     EXPECT_LT((got.velocity - expected.velocity).norm(), pose_noise > 0 ? 0.03 : 0.01);
@@ -55,7 +55,7 @@ TEST(Bootstrap, RefusesAMapWhoseZAxisIsNotUp) {
     }
     frames.push_back({t, tilt * motion.State(ToSeconds(t)).T_map_body, imu});
   }
-  const auto result = AlignVisualInertial(frames, 9.81, TestConfig().bootstrap(), 2.0);
+  const auto result = AlignVisualInertial(frames, 9.81, TestOptions().bootstrap, 2.0);
   EXPECT_FALSE(result.success);
   EXPECT_NE(result.reason.find("z axis"), std::string::npos);
 }

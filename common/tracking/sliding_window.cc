@@ -8,8 +8,8 @@
 
 namespace evit {
 
-SlidingWindow::SlidingWindow(AlignmentSettings alignment, double gravity, const config::Window& config)
-    : alignment_(std::move(alignment)), gravity_(gravity), config_(config) {}
+SlidingWindow::SlidingWindow(AlignmentSettings alignment, double gravity, const WindowOptions& options)
+    : alignment_(std::move(alignment)), gravity_(gravity), options_(options) {}
 
 void SlidingWindow::Reset(std::deque<WindowNode> nodes, const StatePrior& prior) {
   nodes_ = std::move(nodes);
@@ -17,7 +17,7 @@ void SlidingWindow::Reset(std::deque<WindowNode> nodes, const StatePrior& prior)
 }
 
 ImuTerm SlidingWindow::Term(const WindowNode& node) const {
-  return ImuTerm(node.imu.get(), gravity_, config_.imu_noise_factor());
+  return ImuTerm(node.imu.get(), gravity_, options_.imu_noise_factor);
 }
 
 AlignmentTerm SlidingWindow::Align(const WindowNode& node) const {
@@ -31,8 +31,9 @@ StatePrior SlidingWindow::Eliminate(const StatePrior& prior, const AlignmentTerm
 
 std::optional<WindowNode> SlidingWindow::Push(WindowNode node) {
   std::optional<WindowNode> left;
-  if (nodes_.size() >= static_cast<std::size_t>(config_.size())) {
-    if (config_.first_node() == config::Window::PRIOR) prior_ = Eliminate(prior_, Align(nodes_.front()), 0);
+  if (nodes_.size() >= static_cast<std::size_t>(options_.size)) {
+    if (options_.first_node == WindowOptions::FirstNode::kPrior)
+      prior_ = Eliminate(prior_, Align(nodes_.front()), 0);
     left = std::move(nodes_.front());
     nodes_.pop_front();
   }
@@ -59,7 +60,7 @@ SlidingWindow::Summary SlidingWindow::Solve() {
                                blocks[n - 1].motion.data(), blocks[n].pose.data(), blocks[n].motion.data());
     }
   }
-  if (config_.first_node() == config::Window::PRIOR) {
+  if (options_.first_node == WindowOptions::FirstNode::kPrior) {
     problem.AddResidualBlock(new PriorFactor(prior_), nullptr, blocks[0].pose.data(),
                              blocks[0].motion.data());
   } else if (nodes_.size() > 1) {
@@ -68,7 +69,7 @@ SlidingWindow::Summary SlidingWindow::Solve() {
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = config_.max_iterations();
+  options.max_num_iterations = options_.max_iterations;
   options.function_tolerance = 1e-5;
   options.logging_type = ceres::SILENT;
   if (time_budget_ > 0) options.max_solver_time_in_seconds = time_budget_;
@@ -100,7 +101,8 @@ void SlidingWindow::DropNewestAlignment(const std::vector<BodyState>& states) {
 
 Matrix15d SlidingWindow::NewestInformation() const {
   StatePrior prior = prior_;
-  if (config_.first_node() == config::Window::FIXED) prior.information = 1e12 * Matrix15d::Identity();
+  if (options_.first_node == WindowOptions::FirstNode::kFixed)
+    prior.information = 1e12 * Matrix15d::Identity();
   prior.mean = nodes_.front().state;  // only the information matters here
   for (std::size_t n = 0; n + 1 < nodes_.size(); ++n) prior = Eliminate(prior, nodes_[n].alignment, n);
   Matrix15d information = prior.information;

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "common/config/tracker.pb.h"
 #include "common/tracking/prior.h"
+#include "common/tracking/tracker_options.h"
 
 namespace evit {
 
@@ -31,9 +31,9 @@ class SlidingWindow {
     bool usable = false;  // the solver reached a finite state
   };
 
-  SlidingWindow(AlignmentSettings alignment, double gravity, const config::Window& config);
+  SlidingWindow(AlignmentSettings alignment, double gravity, const WindowOptions& options);
 
-  /// Starts with these nodes, oldest first. `prior`: on the first of them (kind PRIOR only).
+  /// Starts with these nodes, oldest first. `prior`: on the first of them (FirstNode::kPrior only).
   void Reset(std::deque<WindowNode> nodes, const StatePrior& prior);
 
   /// Adds the newest node, whose state is a prediction. Where the window is full the oldest leaves: with kind
@@ -60,7 +60,7 @@ class SlidingWindow {
 
   AlignmentSettings alignment_;
   double gravity_;
-  config::Window config_;
+  WindowOptions options_;
   std::deque<WindowNode> nodes_;
   StatePrior prior_;
   double time_budget_ = 0;  // s

@@ -15,34 +15,24 @@ constexpr Utime kLongestGuess =
     500'000;  // us at constant velocity: beyond that the last pose is as good a guess
 constexpr Utime kFarthestAhead = 50'000;  // us: beyond that a prediction leaves the margin anyway
 
-AlignmentSettings MakeAlignment(const Rig& rig, const config::Window& window) {
+AlignmentSettings MakeAlignment(const Rig& rig, const WindowOptions& window) {
   AlignmentSettings settings;
   settings.set_camera(rig.camera);
   settings.T_camera_body = rig.T_body_camera.Inverse();
-  settings.image_sigma = window.image_sigma();
-  switch (window.kernel()) {
-    case config::Window::HUBER:
-      settings.kernel.kind = RobustKernel::Kind::kHuber;
-      break;
-    case config::Window::CAUCHY:
-      settings.kernel.kind = RobustKernel::Kind::kCauchy;
-      break;
-    case config::Window::GEMAN_MCCLURE:
-      settings.kernel.kind = RobustKernel::Kind::kGemanMcClure;
-      break;
-  }
-  settings.kernel.scale = window.robust_scale() / window.image_sigma();
+  settings.image_sigma = window.image_sigma;
+  settings.kernel.kind = window.kernel;
+  settings.kernel.scale = window.robust_scale / window.image_sigma;
   return settings;
 }
 
 }  // namespace
 
-Tracker::Tracker(const Rig& rig, const config::Tracker& config, const SE3& T_map_body)
+Tracker::Tracker(const Rig& rig, const TrackerOptions& options, const SE3& T_map_body)
     : rig_(rig),
-      config_(config),
-      alignment_(MakeAlignment(rig, config.window())),
-      active_(rig.camera, rig.T_body_camera.Inverse(), static_cast<std::uint64_t>(config.points().seed())),
-      window_(alignment_, rig.gravity, config.window()) {
+      options_(options),
+      alignment_(MakeAlignment(rig, options.window)),
+      active_(rig.camera, rig.T_body_camera.Inverse(), static_cast<std::uint64_t>(options.points.seed)),
+      window_(alignment_, rig.gravity, options.window) {
   state_.T_map_body = anchor_ = T_map_body;
 }
 
@@ -102,16 +92,16 @@ VisibilityQuery Tracker::QueryAfter(const KeyframeInput& keyframe) const {
 }
 
 VisibilityQuery Tracker::QueryFrom(const SE3& T_map_body) const {
-  const config::Points& points = config_.points();
+  const PointOptions& points = options_.points;
   VisibilityQuery query;
   query.T_map_camera = T_map_body * rig_.T_body_camera;
   query.camera = rig_.camera;
-  query.margin_px = points.margin_px();
-  query.min_depth = points.min_depth_m();
-  query.max_depth = points.max_depth_m();
-  query.occlusion = points.occlusion();
-  query.max_points = static_cast<int>(point_share_ * points.max_active());
-  query.seed = static_cast<std::uint64_t>(points.seed());
+  query.margin_px = points.margin_px;
+  query.min_depth = points.min_depth_m;
+  query.max_depth = points.max_depth_m;
+  query.occlusion = points.occlusion;
+  query.max_points = static_cast<int>(point_share_ * points.max_active);
+  query.seed = static_cast<std::uint64_t>(points.seed);
   return query;
 }
 
@@ -123,7 +113,7 @@ void Tracker::AddVisible(const std::vector<std::int32_t>& ids, const std::vector
     for (const WindowNode& node : window_.nodes()) poses.push_back(node.state.T_map_body);
   }
   active_.Retain(poses, 0);
-  if (active_.size() > 2 * static_cast<std::size_t>(config_.points().max_active())) active_.Clear();
+  if (active_.size() > 2 * static_cast<std::size_t>(options_.points.max_active)) active_.Clear();
   active_.Merge(ids, points);
 }
 
@@ -131,7 +121,7 @@ void Tracker::AddVisible(const std::vector<std::int32_t>& ids, const std::vector
 AlignmentPoints Tracker::SamplePoints(const BodyState& predicted, int count, std::int64_t seq) const {
   return WhereEventsShow(alignment_,
                          active_.Sample(predicted.T_map_body, count, static_cast<std::uint64_t>(seq)),
-                         predicted.T_map_body, predicted.velocity, rate_, config_.surface().lag_px());
+                         predicted.T_map_body, predicted.velocity, rate_, options_.lag_px);
 }
 
 bool Tracker::Aligned(const AlignmentQuality& quality, double min_contrast) {
@@ -146,10 +136,10 @@ void Tracker::Finish(const AlignmentPoints& points, TrackerOutput* out) const {
 BodyState Tracker::Predict(const KeyframeInput& keyframe) const {
   BodyState predicted = state_;
   const double dt = ToSeconds(keyframe.t - state_time_);
-  switch (config_.window().motion_model()) {
-    case 0:
+  switch (options_.window.motion_model) {
+    case WindowOptions::MotionModel::kPreviousPose:
       break;
-    case 1: {
+    case WindowOptions::MotionModel::kConstantVelocity: {
       const auto& nodes = window_.nodes();
       if (nodes.size() < 2) break;
       const WindowNode &a = nodes[nodes.size() - 2], &b = nodes.back();
@@ -159,7 +149,7 @@ BodyState Tracker::Predict(const KeyframeInput& keyframe) const {
       predicted.T_map_body.p += s * (b.state.T_map_body.p - a.state.T_map_body.p);
       break;
     }
-    default: {
+    case WindowOptions::MotionModel::kImu: {
       const NavState nav =
           PropagateImu({state_.T_map_body, state_.velocity}, keyframe.imu, state_.bias, rig_.gravity);
       predicted.T_map_body = nav.T_map_body;
@@ -171,9 +161,8 @@ BodyState Tracker::Predict(const KeyframeInput& keyframe) const {
 
 TrackerOutput Tracker::Process(const KeyframeInput& keyframe) {
   TrackerOutput out;
-  if (!keyframe.imu.empty() && config_.method() == config::Tracker::EVIT)
-    rate_ = keyframe.imu.back().gyro - state_.bias.gyro;
-  if (config_.method() == config::Tracker::EVT) {
+  if (!keyframe.imu.empty() && !options_.event_only) rate_ = keyframe.imu.back().gyro - state_.bias.gyro;
+  if (options_.event_only) {
     ProcessEventOnly(keyframe, &out);
     return out;
   }
@@ -198,7 +187,7 @@ bool Tracker::Follows(const KeyframeInput& keyframe) {
                       keyframe.imu.back().t == keyframe.t;
   const double gap_ms =
       usable ? static_cast<double>(keyframe.imu_gap) * 1e-3 : 1e-3 * (keyframe.t - state_time_);
-  if (usable && gap_ms <= config_.failure().max_imu_gap_ms()) return true;
+  if (usable && gap_ms <= options_.failure.max_imu_gap_ms) return true;
   SE3 pose = state_.T_map_body;
   if (keyframe.t <= state_time_) {
     Restart(pose, Eigen::Vector3d::Zero(),

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "common/config/tracker.pb.h"
 #include "common/geometry/rig.h"
 #include "common/map/visibility.h"
 #include "common/tracking/active_points.h"
 #include "common/tracking/bootstrap.h"
 #include "common/tracking/localizer.h"
 #include "common/tracking/sliding_window.h"
+#include "common/tracking/tracker_options.h"
 
 namespace evit {
 
@@ -50,7 +50,7 @@ struct TrackerOutput {
 class Tracker {
  public:
   /// `T_map_body`: pose at the first keyframe, to some centimetres and degrees.
-  Tracker(const Rig& rig, const config::Tracker& config, const SE3& T_map_body);
+  Tracker(const Rig& rig, const TrackerOptions& options, const SE3& T_map_body);
 
   /// Looks for the map at this state instead, before the first keyframe: velocity and biases are trusted.
   void StartFrom(const BodyState& state);
@@ -112,7 +112,7 @@ class Tracker {
   void Finish(const AlignmentPoints& points, TrackerOutput* out) const;
 
   Rig rig_;
-  config::Tracker config_;
+  TrackerOptions options_;
   AlignmentSettings alignment_;
   ActivePoints active_;
   SlidingWindow window_;

@@ -56,7 +56,7 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, bool follows, Trac
   }
   BodyState here = state_;
   here.T_map_body = predicted;
-  AlignmentPoints points = SamplePoints(here, config_.points().per_keyframe(), keyframe.seq);
+  AlignmentPoints points = SamplePoints(here, options_.points.per_keyframe, keyframe.seq);
   const StartSigma& sigma = following ? kFollowSigma : kStartSigma;
   const LocalizerResult fit =
       Localize(alignment_, *field, points, predicted, sigma, following ? kFollowLevels : kStartLevels);
@@ -66,7 +66,7 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, bool follows, Trac
   // knows the turn between two frames far better than any frame does.
   const bool plausible = (fit.T_map_body.p - predicted.p).norm() < 4 * sigma.position &&
                          AngularDistance(fit.T_map_body.q, predicted.q) < 4 * sigma.rotation;
-  if (!plausible || !Aligned(fit.quality, config_.bootstrap().min_contrast())) {
+  if (!plausible || !Aligned(fit.quality, options_.bootstrap.min_contrast)) {
     Refuse(points.size());
     return;
   }
@@ -74,7 +74,7 @@ void Tracker::ProcessBootstrap(const KeyframeInput& keyframe, bool follows, Trac
   frames_.push_back({{keyframe.t, fit.T_map_body, imu}, keyframe.seq, field, points});
   if (frames_.size() > kMaxFrames) frames_.erase(frames_.begin());
   state_.velocity = RecentVelocity();
-  if (state_.velocity.norm() > config_.failure().max_speed()) {
+  if (state_.velocity.norm() > options_.failure.max_speed) {
     Refuse(points.size());
     return;
   }
@@ -101,7 +101,7 @@ void Tracker::MoveAnchor(const std::vector<ImuSample>& samples) {
   const NavState moved = PropagateImu({anchor_, anchor_velocity_}, samples, state_.bias, rig_.gravity);
   anchor_.q = moved.T_map_body.q;
   // A velocity no body has comes from a reading that is none.
-  if (reckoned_ >= kLongest || !(moved.velocity.norm() <= config_.failure().max_speed())) {
+  if (reckoned_ >= kLongest || !(moved.velocity.norm() <= options_.failure.max_speed)) {
     anchor_velocity_.setZero();
     reckoned_ = kNoReckoning;
     return;
@@ -147,26 +147,26 @@ Eigen::Vector3d Tracker::RecentVelocity() const {
 }
 
 bool Tracker::ReadyToBootstrap() const {
-  const config::Bootstrap& c = config_.bootstrap();
-  if (static_cast<int>(frames_.size()) < std::max(c.min_frames(), 3)) return false;
+  const BootstrapOptions& c = options_.bootstrap;
+  if (static_cast<int>(frames_.size()) < std::max(c.min_frames, 3)) return false;
   const BootstrapFrame &first = frames_.front().frame, &last = frames_.back().frame;
   const double moved = (last.T_map_body.p - first.T_map_body.p).norm();
   const double turned = AngularDistance(first.T_map_body.q, last.T_map_body.q);
-  return moved >= c.min_displacement_m() || turned >= c.min_rotation_deg() * EIGEN_PI / 180 ||
-         ToSeconds(last.t - first.t) >= c.max_duration_s();
+  return moved >= c.min_displacement_m || turned >= c.min_rotation_deg * EIGEN_PI / 180 ||
+         ToSeconds(last.t - first.t) >= c.max_duration_s;
 }
 
 bool Tracker::TryBootstrap() {
   std::vector<BootstrapFrame> chain;
   for (const LocalizedFrame& f : frames_) chain.push_back(f.frame);
   const BootstrapResult result =
-      AlignVisualInertial(chain, rig_.gravity, config_.bootstrap(), config_.window().imu_noise_factor());
+      AlignVisualInertial(chain, rig_.gravity, options_.bootstrap, options_.window.imu_noise_factor);
   if (!result.success) {
     reason_ = "visual-inertial alignment refused: " + result.reason;
     frames_.erase(frames_.begin(), frames_.begin() + static_cast<std::ptrdiff_t>(frames_.size() / 2));
     return false;
   }
-  const auto n_window = std::min<std::size_t>(frames_.size(), config_.window().size());
+  const auto n_window = std::min<std::size_t>(frames_.size(), options_.window.size);
   std::deque<WindowNode> nodes;
   for (std::size_t k = frames_.size() - n_window; k < frames_.size(); ++k) {
     LocalizedFrame& f = frames_[k];

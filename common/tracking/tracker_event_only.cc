@@ -21,16 +21,17 @@ void Tracker::ProcessEventOnly(const KeyframeInput& keyframe, TrackerOutput* out
   const double dt = aligned_at_ > 0 ? ToSeconds(keyframe.t - aligned_at_) : 0;
   const SE3 previous = state_.T_map_body;
   BodyState predicted = state_;
-  if (config_.window().motion_model() >= 1 && dt > 0) {  // constant velocity
+  if (options_.window.motion_model != WindowOptions::MotionModel::kPreviousPose &&
+      dt > 0) {  // constant velocity
     predicted.T_map_body.p += dt * state_.velocity;
     predicted.T_map_body.q = (previous.q * ExpSO3(dt * rate_)).normalized();
   }
   const SurfaceField field(keyframe.surface, kLevels);
-  const AlignmentPoints points = SamplePoints(predicted, config_.points().per_keyframe(), keyframe.seq);
+  const AlignmentPoints points = SamplePoints(predicted, options_.points.per_keyframe, keyframe.seq);
   const LocalizerResult fit = Localize(alignment_, field, points, predicted.T_map_body, kStart, kLevels);
   out->quality = fit.quality;
   out->iterations = fit.iterations;
-  const bool good = Aligned(fit.quality, config_.failure().min_contrast());
+  const bool good = Aligned(fit.quality, options_.failure.min_contrast);
   bad_frames_ = good ? 0 : bad_frames_ + 1;
   state_time_ = keyframe.t;
   if (bad_frames_ > kPatience) {
@@ -50,8 +51,8 @@ void Tracker::ProcessEventOnly(const KeyframeInput& keyframe, TrackerOutput* out
     out->information.bottomRightCorner<9, 9>().setIdentity();
     out->covariance =
         PoseCovariance(out->information) +
-        CommonCovariance(alignment, config_.window().correlated_share(), config_.window().map_sigma_m()) +
-        StampCovariance(state_.velocity, rate_, 1e-6 * config_.window().stamp_sigma_us());
+        CommonCovariance(alignment, options_.window.correlated_share, options_.window.map_sigma_m) +
+        StampCovariance(state_.velocity, rate_, 1e-6 * options_.window.stamp_sigma_us);
     out->nodes.push_back({keyframe.t, keyframe.seq, state_});
     Finish(points, out);
   }

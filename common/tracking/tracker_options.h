@@ -60,4 +60,15 @@ struct FailureOptions {
   double max_imu_gap_ms = 200;         // a longer hole in the IMU stream starts the window again
 };
 
+/// All that a tracker needs to know.
+struct TrackerOptions {
+  PointOptions points;
+  WindowOptions window;
+  BootstrapOptions bootstrap;
+  FailureOptions failure;
+  int min_events = 2000;  // a keyframe of fewer says too little about the pose (KeyframeOptions has the same)
+  double lag_px = 0.25;   // how far events are behind the edges that cause them (SurfaceOptions has the same)
+  bool event_only = false;  // EVT, the paper's baseline: each frame by its events alone, no IMU
+};
+
 }  // namespace evit

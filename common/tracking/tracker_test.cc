@@ -13,12 +13,12 @@ TEST(Tracker, BootstrapsAndTracksASyntheticRoom) {
   const Motion motion;
   const SE3 start = motion.State(1.0).T_map_body.Plus(
       (Eigen::Matrix<double, 6, 1>() << 0.02, -0.02, 0.01, 0.01, -0.01, 0.01).finished());
-  for (const auto first : {config::Window::PRIOR, config::Window::FIXED}) {
-    config::Tracker config = TestConfig();
-    config.mutable_window()->set_first_node(first);
+  for (const auto first : {WindowOptions::FirstNode::kPrior, WindowOptions::FirstNode::kFixed}) {
+    TrackerOptions options = TestOptions();
+    options.window.first_node = first;
     // A fixed first node can only be corrected through the slack of the IMU terms.
-    if (first == config::Window::FIXED) config.mutable_window()->set_imu_noise_factor(50);
-    Bench bench(config, start);
+    if (first == WindowOptions::FirstNode::kFixed) options.window.imu_noise_factor = 50;
+    Bench bench(options, start);
     Utime t = 1'000'000;
     TrackerOutput out;
     double worst = 0, worst_angle = 0;
@@ -47,7 +47,7 @@ TEST(Tracker, SameInputSameOutput) {
   const Motion motion;
   std::vector<SE3> results;
   for (int run = 0; run < 2; ++run) {
-    Bench bench(TestConfig(), motion.State(1.0).T_map_body);
+    Bench bench(TestOptions(), motion.State(1.0).T_map_body);
     TrackerOutput out;
     for (Utime t = 1'000'000; t < 1'500'000; t += 10'000) out = bench.Step(t, bench.room);
     results.push_back(out.nodes.back().state.T_map_body);
@@ -58,7 +58,7 @@ TEST(Tracker, SameInputSameOutput) {
 
 TEST(Tracker, SaysLostWhenTheWorldIsNotTheMap) {
   const Motion motion;
-  Bench bench(TestConfig(), motion.State(1.0).T_map_body);
+  Bench bench(TestOptions(), motion.State(1.0).T_map_body);
   Utime t = 1'000'000;
   TrackerOutput out = bench.UntilTracking(&t);
   ASSERT_EQ(out.mode, TrackerMode::kTracking);
@@ -71,9 +71,9 @@ TEST(Tracker, SaysLostWhenTheWorldIsNotTheMap) {
 
 TEST(Tracker, FindsTheMapAgainWhileTheBodyMoves) {
   const Motion motion{0.4, 0.3};
-  config::Tracker config = TestConfig();
-  config.mutable_failure()->set_max_coast_s(0.2);
-  Bench bench(config, motion.State(1.0).T_map_body);
+  TrackerOptions options = TestOptions();
+  options.failure.max_coast_s = 0.2;
+  Bench bench(options, motion.State(1.0).T_map_body);
   bench.motion = motion;
   Utime t = 1'000'000;
   TrackerOutput out = bench.UntilTracking(&t);
@@ -99,10 +99,10 @@ TEST(Tracker, LateEventsCountAlongTheMotion) {
   Utime t = 0;
   Matrix6d with = Matrix6d::Zero(), without = Matrix6d::Zero();
   for (Matrix6d* covariance : {&without, &with}) {
-    config::Tracker config = TestConfig();
-    config.mutable_window()->set_stamp_sigma_us(covariance == &with ? 1e6 * kSigma : 0);
+    TrackerOptions options = TestOptions();
+    options.window.stamp_sigma_us = covariance == &with ? 1e6 * kSigma : 0;
     t = 1'000'000;
-    Bench bench(config, motion.State(ToSeconds(t)).T_map_body);
+    Bench bench(options, motion.State(ToSeconds(t)).T_map_body);
     TrackerOutput out;
     for (int k = 0; k < 80; ++k)
       out = bench.Step(t += out.mode == TrackerMode::kTracking ? 25'000 : 10'000, bench.room);
@@ -117,10 +117,10 @@ TEST(Tracker, LateEventsCountAlongTheMotion) {
 
 TEST(Tracker, EventOnlyTracksWithoutTheImu) {
   const Motion motion;
-  config::Tracker config = TestConfig();
-  config.set_method(config::Tracker::EVT);
-  config.mutable_window()->set_motion_model(0);
-  Bench bench(config, motion.State(1.0).T_map_body);
+  TrackerOptions options = TestOptions();
+  options.event_only = true;
+  options.window.motion_model = WindowOptions::MotionModel::kPreviousPose;
+  Bench bench(options, motion.State(1.0).T_map_body);
   bench.bias = {{9, 9, 9}, {99, 99, 99}};  // nothing of it is used
   TrackerOutput out;
   for (Utime t = 1'000'000; t <= 2'000'000; t += 3'333) {

@@ -12,9 +12,9 @@ using synthetic::Motion;
 
 TEST(Tracker, CoastsOnTheImuWhileThereAreNoEvents) {
   const Motion motion;
-  config::Tracker config = TestConfig();
-  config.mutable_failure()->set_max_coast_s(1.5);
-  Bench bench(config, motion.State(1.0).T_map_body);
+  TrackerOptions options = TestOptions();
+  options.failure.max_coast_s = 1.5;
+  Bench bench(options, motion.State(1.0).T_map_body);
   Utime t = 1'000'000;
   TrackerOutput out = bench.UntilTracking(&t);
   for (int k = 0; k < 20; ++k) out = bench.Step(t += 25'000, bench.room);
@@ -48,7 +48,7 @@ TEST(Tracker, CoastsOnTheImuWhileThereAreNoEvents) {
 TEST(Tracker, AClockThatJumpsIsSaidAndTrackingResumes) {
   for (const Utime jump : {Utime{-5'000'000}, Utime{3'600'000'000}}) {
     const Motion motion;
-    Bench bench(TestConfig(), motion.State(1.0).T_map_body);
+    Bench bench(TestOptions(), motion.State(1.0).T_map_body);
     Utime t = 1'000'000;
     TrackerOutput out = bench.UntilTracking(&t);
     ASSERT_EQ(out.mode, TrackerMode::kTracking);
@@ -64,7 +64,7 @@ TEST(Tracker, AClockThatJumpsIsSaidAndTrackingResumes) {
 
 TEST(Tracker, ASolveCutShortKeepsTheBestSoFar) {
   const Motion motion;
-  Bench bench(TestConfig(), motion.State(1.0).T_map_body);
+  Bench bench(TestOptions(), motion.State(1.0).T_map_body);
   Utime t = 1'000'000;
   TrackerOutput out = bench.UntilTracking(&t);
   ASSERT_EQ(out.mode, TrackerMode::kTracking);
@@ -84,7 +84,7 @@ TEST(Tracker, ASolveCutShortKeepsTheBestSoFar) {
 
 TEST(Tracker, ImuGapIsReportedAndTrackingResumes) {
   const Motion motion;
-  Bench bench(TestConfig(), motion.State(1.0).T_map_body);
+  Bench bench(TestOptions(), motion.State(1.0).T_map_body);
   Utime t = 1'000'000;
   TrackerOutput out = bench.UntilTracking(&t);
   ASSERT_EQ(out.mode, TrackerMode::kTracking);

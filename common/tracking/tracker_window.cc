@@ -15,10 +15,10 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
   node.seq = keyframe.seq;
   node.state = Predict(keyframe);
   node.field = std::make_shared<SurfaceField>(keyframe.surface, 1);
-  const bool eventful = keyframe.n_events >= config_.keyframes().min_events();
+  const bool eventful = keyframe.n_events >= options_.min_events;
   if (eventful) {
-    node.points = SamplePoints(node.state, static_cast<int>(point_share_ * config_.points().per_keyframe()),
-                               keyframe.seq);
+    node.points =
+        SamplePoints(node.state, static_cast<int>(point_share_ * options_.points.per_keyframe), keyframe.seq);
   }
   const std::size_t n_points = node.points.size();
   node.imu = std::make_shared<Preintegration>(keyframe.imu, state_.bias, rig_.imu_noise);
@@ -35,7 +35,7 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
     coasting = "no events";
   } else if (n_points < kMinPoints) {
     coasting = "no map points in view";
-  } else if (!Aligned(out->quality, config_.failure().min_contrast())) {
+  } else if (!Aligned(out->quality, options_.failure.min_contrast)) {
     coasting = "the map does not lie on the events";
   }
   if (!coasting.empty()) window_.DropNewestAlignment(before);
@@ -43,17 +43,17 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
   state_ = newest.state;
   out->information = window_.NewestInformation();
   if (coasting.empty()) {
-    common_ = CommonCovariance(newest.alignment.hessian, config_.window().correlated_share(),
-                               config_.window().map_sigma_m());
+    common_ = CommonCovariance(newest.alignment.hessian, options_.window.correlated_share,
+                               options_.window.map_sigma_m);
   }
   out->covariance = PoseCovariance(out->information) + common_ +
-                    StampCovariance(state_.velocity, rate_, 1e-6 * config_.window().stamp_sigma_us());
+                    StampCovariance(state_.velocity, rate_, 1e-6 * options_.window.stamp_sigma_us);
 
   const std::string trouble = Trouble(keyframe, summary.usable, coasting, *out);
   if (!trouble.empty()) {
-    const bool sane = state_.velocity.norm() <= config_.failure().max_speed() &&
-                      state_.bias.gyro.norm() <= config_.failure().max_gyro_bias() &&
-                      state_.bias.accel.norm() <= config_.failure().max_accel_bias();
+    const bool sane = state_.velocity.norm() <= options_.failure.max_speed &&
+                      state_.bias.gyro.norm() <= options_.failure.max_gyro_bias &&
+                      state_.bias.accel.norm() <= options_.failure.max_accel_bias;
     if (!sane) state_.bias = {};
     // Where it has diverged, the prediction from the state before is the better place to look.
     Restart(sane ? state_.T_map_body : before.back().T_map_body,
@@ -70,13 +70,12 @@ void Tracker::ProcessTracking(const KeyframeInput& keyframe, TrackerOutput* out)
 // Why tracking cannot go on; empty where it can.
 std::string Tracker::Trouble(const KeyframeInput& keyframe, bool usable, const std::string& coasting,
                              const TrackerOutput& out) {
-  const config::Failure& limits = config_.failure();
+  const FailureOptions& limits = options_.failure;
   if (!usable) return "the solver failed";
-  if (state_.velocity.norm() > limits.max_speed()) {
-    return Text("speed of %.1f m/s is over the limit of %.1f", state_.velocity.norm(), limits.max_speed());
+  if (state_.velocity.norm() > limits.max_speed) {
+    return Text("speed of %.1f m/s is over the limit of %.1f", state_.velocity.norm(), limits.max_speed);
   }
-  if (state_.bias.gyro.norm() > limits.max_gyro_bias() ||
-      state_.bias.accel.norm() > limits.max_accel_bias()) {
+  if (state_.bias.gyro.norm() > limits.max_gyro_bias || state_.bias.accel.norm() > limits.max_accel_bias) {
     return Text("biases too large: gyro %.3f rad/s, accel %.2f m/s^2", state_.bias.gyro.norm(),
                 state_.bias.accel.norm());
   }
@@ -86,7 +85,7 @@ std::string Tracker::Trouble(const KeyframeInput& keyframe, bool usable, const s
   }
   const double coasted = ToSeconds(keyframe.t - aligned_at_);
   const double sigma = std::sqrt(out.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff());
-  if (coasted <= limits.max_coast_s() && sigma <= limits.max_position_sigma_m()) return "";
+  if (coasted <= limits.max_coast_s && sigma <= limits.max_position_sigma_m) return "";
   return coasting + Text(" for %.1f s, position known to %.2f m", coasted, sigma);
 }
 

@@ -7,6 +7,21 @@
 
 namespace {
 
+evit::TrackerOptions TrackerPart(const evit::PipelineOptions& o) {
+  return {o.points,
+          o.window,
+          o.bootstrap,
+          o.failure,
+          o.keyframes.min_events,
+          o.surface.lag_px,
+          o.method == evit::PipelineOptions::Method::kEvt};
+}
+
+evit::PhotometricTrackerOptions PhotometricPart(const evit::PipelineOptions& o) {
+  return {o.photometric,        o.keyframes.min_events, o.surface.lag_px,       o.points.min_depth_m,
+          o.points.max_depth_m, o.window.map_sigma_m,   o.window.stamp_sigma_us};
+}
+
 int Main(int argc, char** argv) {
   CLI::App app{"Tracks the body's 6-DoF pose in a known map from keyframes and IMU (LCM service)."};
   std::string rig, config, pose, checkpoint;
@@ -24,14 +39,15 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
   }
-  const evit::WindowOptimizer::Settings settings{evit::LoadRig(rig), evit::LoadTracker(config),
+  const evit::PipelineOptions pipeline = evit::LoadOptions(config);
+  const evit::WindowOptimizer::Settings settings{evit::LoadRig(rig), TrackerPart(pipeline),
                                                  evit::ParsePose("--initial-pose", pose), options.lossless,
                                                  checkpoint};
   const auto bus = evit::OpenServiceBus(options);
-  if (settings.tracker.method() == evit::config::Tracker::EVPT) {
+  if (pipeline.method == evit::PipelineOptions::Method::kEvpt) {
     evit::PhotometricOptimizer service(
         bus.get(), evit::Channels(options.prefix),
-        {settings.rig, settings.tracker, settings.T_map_body, options.lossless});
+        {settings.rig, PhotometricPart(pipeline), settings.T_map_body, options.lossless});
     return evit::RunService(&service, bus.get());
   }
   evit::WindowOptimizer service(bus.get(), evit::Channels(options.prefix), settings);

@@ -32,7 +32,7 @@ class PhotometricOptimizer : public Service {
  public:
   struct Settings {
     Rig rig;
-    config::Tracker tracker;
+    PhotometricTrackerOptions tracker;
     SE3 T_map_body;  // of the body at the first keyframe
     bool lossless = false;
   };

@@ -2,7 +2,6 @@
 // bus.
 #include "services/window_optimizer/photometric_optimizer.h"
 
-#include "common/config/config.h"
 #include "common/photometric/view_renderer.h"
 #include "common/photometric/wire/view_wire.h"
 #include "tests/helpers/optimizer_peer.h"
@@ -32,7 +31,6 @@ class PhotometricOptimizerTest : public test::OptimizerPeer {
                     });
     settings_.rig.camera = test::EventCamera();
     settings_.rig.T_body_camera = test::BodyCamera();
-    settings_.tracker = LoadTracker(std::string(EVIT_SOURCE_DIR) + "/config/evpt.textproto");
     settings_.T_map_body = Truth(1'000'000);
     settings_.lossless = lossless;
     service_ = std::make_unique<PhotometricOptimizer>(service_bus_.get(), channels_, settings_);

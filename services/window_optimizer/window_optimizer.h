@@ -39,7 +39,7 @@ class WindowOptimizer : public Service {
  public:
   struct Settings {
     Rig rig;
-    config::Tracker tracker;
+    TrackerOptions tracker;
     SE3 T_map_body;  // of the body at the first keyframe
     bool lossless = false;
     std::string checkpoint;  // file; real time only; empty: none

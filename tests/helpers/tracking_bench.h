@@ -8,26 +8,19 @@
 namespace evit {
 
 /// Settings for a room of points alone.
-inline config::Tracker TestConfig() {
-  config::Tracker c;
-  auto* k = c.mutable_keyframes();
-  k->set_min_events(1000);
-  auto* p = c.mutable_points();
-  p->set_max_active(5000), p->set_per_keyframe(600), p->set_margin_px(40), p->set_min_depth_m(0.1);
-  p->set_max_depth_m(12), p->set_occlusion(false), p->set_seed(1);
-  auto* w = c.mutable_window();
-  w->set_size(5), w->set_kernel(config::Window::CAUCHY), w->set_first_node(config::Window::PRIOR);
-  w->set_image_sigma(80), w->set_robust_scale(80), w->set_max_iterations(12), w->set_imu_noise_factor(2);
-  w->set_motion_model(2);
-  auto* b = c.mutable_bootstrap();
-  b->set_min_frames(10), b->set_min_displacement_m(0.05), b->set_min_rotation_deg(5),
-      b->set_max_duration_s(2);
-  b->set_max_gyro_bias(0.1), b->set_max_accel_bias(0.6);
-  auto* f = c.mutable_failure();
-  c.mutable_bootstrap()->set_min_contrast(0.15), f->set_min_contrast(0.15), f->set_max_coast_s(0.3),
-      f->set_max_position_sigma_m(0.2), f->set_max_speed(6), f->set_max_gyro_bias(0.2);
-  f->set_max_accel_bias(1.5), f->set_max_imu_gap_ms(200);
-  return c;
+inline TrackerOptions TestOptions() {
+  TrackerOptions o;
+  o.min_events = 1000;
+  o.lag_px = 0;
+  o.points.per_keyframe = 600;
+  o.points.occlusion = false;
+  o.window.correlated_share = o.window.map_sigma_m = o.window.stamp_sigma_us = 0;
+  o.bootstrap.min_displacement_m = 0.05;
+  o.bootstrap.min_rotation_deg = 5;
+  o.bootstrap.min_contrast = o.failure.min_contrast = 0.15;
+  o.failure.max_coast_s = 0.3;
+  o.failure.max_position_sigma_m = 0.2;
+  return o;
 }
 
 inline Rig TestRig() {
@@ -49,7 +42,7 @@ struct Bench {
   std::int64_t seq = 0;
   Utime last = 0, clock = 0;  // us to add to all stamps
 
-  explicit Bench(const config::Tracker& config, const SE3& start) : tracker(TestRig(), config, start) {}
+  explicit Bench(const TrackerOptions& options, const SE3& start) : tracker(TestRig(), options, start) {}
 
   TrackerOutput Step(Utime t, const std::vector<Eigen::Vector3f>& seen_points) {
     const VisibilityQuery query = tracker.NextQuery();

@@ -9,7 +9,6 @@
 #include <thread>
 #include <vector>
 
-#include "common/config/config.h"
 #include "common/tracking/synthetic_scene.h"
 #include "services/window_optimizer/window_optimizer.h"
 #include "tests/helpers/optimizer_peer.h"
@@ -32,7 +31,6 @@ class WindowOptimizerTest : public OptimizerPeer {
     settings.rig.camera = synthetic::VgaCamera();
     settings.rig.T_body_camera = synthetic::BodyCamera();
     settings.rig.imu_noise = {7e-4, 1.3e-3, 7e-6, 6e-5};
-    settings.tracker = LoadTracker(std::string(EVIT_SOURCE_DIR) + "/config/tracker.textproto");
     settings.T_map_body = motion_.State(1.0).T_map_body;
     settings.lossless = lossless;
     service_ = std::make_unique<WindowOptimizer>(service_bus_.get(), channels_, settings);
