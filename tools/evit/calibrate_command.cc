@@ -10,6 +10,7 @@
 #include "tools/calibration/calibration_report.h"
 #include "tools/calibration/recorded_motion.h"
 #include "tools/evit/commands.h"
+#include "tools/evit/data_file.h"
 #include "tools/evit/options.h"
 #include "tools/run/run.h"
 
@@ -29,7 +30,7 @@ std::string Track(CalibrateOptions* o) {
   if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
   job.initial_from = o->from;
   if (!o->seconds.empty()) job.seconds = ParseSeconds(o->seconds);
-  if (job.config.empty()) job.config = ConfigFile("evt.textproto");
+  if (job.config.empty()) job.config = DataFile("config/evt.textproto");
   if (LoadTracker(job.config).method() != config::Tracker::EVT) {
     throw std::runtime_error(job.config +
                              ": method: EVT is wanted, as in config/evt.textproto: poses that used the IMU "

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "common/config/config.h"
+#include "tools/evit/data_file.h"
 #include "tools/evit/import_options.h"
 #include "tools/evit/options.h"
 #include "tools/formats/vector/sequence_import.h"
@@ -24,7 +25,7 @@ void AddImportVector(CLI::App* import) {
     o->shared.Apply(&job);
     job.folder = o->folder;
     job.name = o->name;
-    job.rig = LoadRig(o->rig.empty() ? ConfigFile("vector/rig.textproto") : o->rig);
+    job.rig = LoadRig(o->rig.empty() ? DataFile("config/vector/rig.textproto") : o->rig);
     RunImport(job.name, job, job.name + "1.synced.gt.txt",
               [&](const auto& progress) { return formats::ImportSequence(job, progress); });
   });

@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -40,13 +39,6 @@ std::string CommandLineOfThis() {
     line += (line.empty() ? "" : " ") + (plain ? word : "\"" + word + "\"");
   }
   return line;
-}
-
-std::string ConfigFile(const std::string& name) {
-  const std::filesystem::path beside =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "../config" / name;
-  if (std::filesystem::exists(beside)) return beside.lexically_normal().string();
-  return std::string(EVIT_PROJECT_DIR) + "/config/" + name;
 }
 
 }  // namespace evit::commands

@@ -17,7 +17,4 @@ SE3 ParseTransform(const std::string& option, const std::string& text);
 /// This process's command line, as it could be typed again.
 std::string CommandLineOfThis();
 
-/// A file below the project's config/ folder: where this program was built from, or beside its installation.
-std::string ConfigFile(const std::string& name);
-
 }  // namespace evit::commands

@@ -4,17 +4,21 @@
 #include <memory>
 
 #include "tools/evit/commands.h"
+#include "tools/evit/data_file.h"
 #include "tools/evit/options.h"
 #include "tools/paper/paper.h"
 
 namespace evit::commands {
 namespace {
 
+// The source tree a build tree belongs to; where EVIT is installed, the folder of its data.
+std::string SourceTree() { return DataFile(""); }
+
 // Real motions for simulations: EVIT_SHARED_DATA, or the folder beside the source tree.
 std::string SharedData() {
   const char* named = std::getenv("EVIT_SHARED_DATA");
   if (named != nullptr) return named;
-  const auto beside = std::filesystem::path(EVIT_PROJECT_DIR) / "../shared/data";
+  const auto beside = std::filesystem::path(SourceTree()) / "../shared/data";
   return std::filesystem::is_directory(beside) ? std::filesystem::canonical(beside).string() : "";
 }
 
@@ -46,10 +50,10 @@ void AddPaperCommand(CLI::App* app) {
       "config/paper.textproto.\n"
       "Exit code: 0 all done, 1 something failed, 130 interrupted.");
   paper->callback([o] {
-    if (o->config.empty()) o->config = ConfigFile("paper.textproto");
+    if (o->config.empty()) o->config = DataFile("config/paper.textproto");
     o->programs = std::filesystem::read_symlink("/proc/self/exe").parent_path().string();
     o->shared_data = SharedData();
-    const int code = paper::MakePaper(*o, CommandLineOfThis(), EVIT_PROJECT_DIR);
+    const int code = paper::MakePaper(*o, CommandLineOfThis(), SourceTree());
     if (code != 0) throw CLI::RuntimeError(code);
   });
 }

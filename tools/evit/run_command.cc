@@ -6,6 +6,7 @@
 
 #include "common/geometry/pose_text.h"
 #include "tools/evit/commands.h"
+#include "tools/evit/data_file.h"
 #include "tools/evit/options.h"
 #include "tools/run/run.h"
 
@@ -57,7 +58,7 @@ void AddRunCommand(CLI::App* app) {
     job.initial_from = o->from;
     if (job.truth.empty()) job.truth = o->from;
     if (!o->seconds.empty()) job.seconds = ParseSeconds(o->seconds);
-    if (job.config.empty()) job.config = ConfigFile("tracker.textproto");
+    if (job.config.empty()) job.config = DataFile("config/tracker.textproto");
     job.lossless = !o->realtime;
     if (job.lossless && job.loops > 1) throw std::runtime_error("--loops needs --realtime");
     job.command = CommandLineOfThis();

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "common/config/config.h"
+#include "tools/evit/data_file.h"
 #include "tools/simulation/builtin_motion.h"
 #include "tools/simulation/simulator.h"
 
@@ -60,20 +61,6 @@ const CLI::Validator kRange(
     },
     "FROM:TO");
 
-// The rig in the source tree this was built from, or beside the program's folder where it is installed.
-std::string DefaultRig() {
-  std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    for (const char* place : {"config/vector/rig.textproto", "../config/vector/rig.textproto",
-                              "../share/evit/config/vector/rig.textproto"}) {
-      const auto path = program.parent_path() / place;
-      if (std::filesystem::exists(path, error)) return path.string();
-    }
-  }
-  return EVIT_PROJECT_DIR "/config/vector/rig.textproto";
-}
-
 void PrintProgress(double share) {
   constexpr int kWidth = 40;
   const int done = static_cast<int>(share * kWidth);
@@ -101,7 +88,8 @@ void PrintSummary(const simulation::SimulationSettings& settings, const simulati
 
 void Run(Options* options) {
   simulation::SimulationSettings& s = options->settings;
-  const std::string rig_path = options->rig_path.empty() ? DefaultRig() : options->rig_path;
+  const std::string rig_path =
+      options->rig_path.empty() ? DataFile("config/vector/rig.textproto") : options->rig_path;
   const Rig rig = LoadRig(rig_path);
   if (options->frame == "body") s.trajectory.frame = simulation::TrajectoryFrame::kBody;
   if (options->frame == "marker-yup") s.trajectory.frame = simulation::TrajectoryFrame::kMarkerYUp;

@@ -13,6 +13,7 @@
 #include "procman/deputy.h"
 #include "procman/script_runner.h"
 #include "tools/evit/commands.h"
+#include "tools/evit/data_file.h"
 #include "tools/evit/options.h"
 #include "tools/run/local_network.h"
 
@@ -47,7 +48,7 @@ std::vector<procman::ProcmanCommand> CommandsOf(const procman::Deployment& deplo
 
 // What evit.procman needs beside what only the user can know.
 void SetDefaults(const std::filesystem::path& logs) {
-  setenv("EVIT_CONFIG", ConfigFile("tracker.textproto").c_str(), 0);
+  setenv("EVIT_CONFIG", DataFile("config/tracker.textproto").c_str(), 0);
   if (std::getenv("EVIT_STATE") != nullptr) return;
   // For restarts of services: an earlier deployment's state is none of this one's.
   const std::filesystem::path state = logs / "state";
@@ -56,8 +57,14 @@ void SetDefaults(const std::filesystem::path& logs) {
   setenv("EVIT_STATE", state.c_str(), 1);
 }
 
+// As it is named, or a deployment that comes with EVIT.
+std::string DeploymentFile(const std::string& name) {
+  const bool plain = name.find('/') == std::string::npos && !std::filesystem::exists(name);
+  return plain ? DataFile("procman/" + name) : name;
+}
+
 void Up(const UpOptions& o) {
-  const procman::Deployment deployment = procman::LoadDeployment(o.file);
+  const procman::Deployment deployment = procman::LoadDeployment(DeploymentFile(o.file));
   std::string deputy_id;
   const std::vector<procman::ProcmanCommand> commands = CommandsOf(deployment, o, &deputy_id);
   std::filesystem::create_directories(o.logs);
@@ -107,7 +114,8 @@ void AddUpCommand(CLI::App* app) {
   auto o = std::make_shared<UpOptions>();
   CLI::App* up =
       app->add_subcommand("up", "Run a procman deployment headless: starts, watches and stops its commands");
-  up->add_option("file", o->file, "Procman file, either dialect, e.g. procman/evit.procman")->required();
+  up->add_option("file", o->file, "Procman file, either dialect; evit.procman and evit.pmd come with EVIT")
+      ->required();
   up->add_option("script", o->script, "Script of it to run, e.g. replay or robot")->required();
   up->add_option("--deputy", o->deputy, "Run this deputy's commands (default: the only one of the file)");
   up->add_option("--logs", o->logs, "Folder for NAME.log and what restarts need")->default_val("evit-logs");
