@@ -11,7 +11,8 @@ SE3 ParsePose(const std::string& option, const std::string& text) {
   char rest = 0;
   const int n = std::sscanf(text.c_str(), " %lf %lf %lf %lf %lf %lf %lf %c", v, v + 1, v + 2, v + 3, v + 4,
                             v + 5, v + 6, &rest);
-  const std::string error = option + " \"" + text + "\": expected seven numbers, x y z (m) and a unit "
+  const std::string error = option + " \"" + text +
+                            "\": expected seven numbers, x y z (m) and a unit "
                             "quaternion qx qy qz qw";
   if (n != 7) throw std::runtime_error(error);
   for (const double number : v) {

@@ -25,7 +25,8 @@ TEST(ParsePose, NormalisesARoundedQuaternion) {
 }
 
 TEST(ParsePose, NamesTheOptionTheTextAndWhatWasExpected) {
-  for (const char* text : {"", "1 2 3", "0 0 0 0 0 0 1 x", "0 0 0 0 0 0 one", "nan 0 0 0 0 0 1", "0 0 0 0 0 0 nan"}) {
+  for (const char* text :
+       {"", "1 2 3", "0 0 0 0 0 0 1 x", "0 0 0 0 0 0 one", "nan 0 0 0 0 0 1", "0 0 0 0 0 0 nan"}) {
     EXPECT_THAT([&] { ParsePose("--pose", text); },
                 ThrowsMessage<std::runtime_error>(
                     AllOf(HasSubstr(std::string("--pose \"") + text + "\""), HasSubstr("x y z (m)"))))

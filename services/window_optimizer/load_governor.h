@@ -15,6 +15,10 @@ class LoadGovernor {
   /// A keyframe begins to be processed after waiting so long (ms).
   void Observe(double waited_ms);
 
+  /// Longest time (s) one solve may take, so that the best so far counts: a share of the time between two
+  /// keyframes (s), within limits, and the least while others wait.
+  static double SolveBudget(double interval, bool others_wait);
+
   int level() const { return level_; }
   double point_share() const { return level_ == 0 ? 1.0 : level_ == 1 ? 0.5 : 0.25; }
   double keyframe_stride() const { return level_ <= 2 ? 1 : level_ == 3 ? 2 : 4; }

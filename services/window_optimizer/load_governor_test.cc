@@ -42,5 +42,15 @@ TEST(LoadGovernor, RecoversStepByStep) {
   EXPECT_EQ(governor.level(), 0);
 }
 
+TEST(LoadGovernor, ASolveMayTakeAShareOfTheTimeBetweenKeyframesWithinLimits) {
+  EXPECT_DOUBLE_EQ(LoadGovernor::SolveBudget(0.05, false), 0.03);
+  EXPECT_DOUBLE_EQ(LoadGovernor::SolveBudget(0.001, false), 0.015);
+  EXPECT_DOUBLE_EQ(LoadGovernor::SolveBudget(1e6, false), 0.1);
+}
+
+TEST(LoadGovernor, ASolveTakesTheLeastWhileOthersWait) {
+  EXPECT_DOUBLE_EQ(LoadGovernor::SolveBudget(0.05, true), 0.015);
+}
+
 }  // namespace
 }  // namespace evit

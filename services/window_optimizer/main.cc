@@ -30,9 +30,9 @@ int Main(int argc, char** argv) {
   app.add_option("--config", config, "Tracker settings (text protobuf)")->required();
   app.add_option("--initial-pose", pose, "Body in the map at the first keyframe: \"x y z qx qy qz qw\"")
       ->required();
-  app.add_option(
-      "--checkpoint", checkpoint,
-      "File with the newest state, to go on from after a restart (real time; delete it to start anew)");
+  app.add_option("--checkpoint", checkpoint,
+                 "File with the newest state, to continue from after a restart (real time; delete it to start "
+                 "from the initial pose)");
   evit::AddServiceOptions(&app, &options);
   try {
     app.parse(argc, argv);

@@ -1,19 +1,24 @@
 #include "services/window_optimizer/photometric_optimizer.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
+#include "common/bus/subscribe.h"
 #include "common/photometric/wire/view_wire.h"
-#include "services/window_optimizer/messages.h"
+#include "common/time/milliseconds.h"
 
 namespace evit {
 namespace {
 
-constexpr std::size_t kMaxQueue = 2;                           // keyframes waiting, real time
-constexpr auto kViewPatience = std::chrono::milliseconds(50);  // real time: go on with the view at hand
-constexpr auto kAskAgain = std::chrono::milliseconds(200);     // an unanswered query is sent again
+// Real time: then the tracker continues with the view at hand.
+constexpr RequestClient<MapViewRequest>::Patience kPatience{std::chrono::milliseconds(50)};
 
-double Milliseconds(std::chrono::steady_clock::duration d) {
-  return std::chrono::duration<double, std::milli>(d).count();
+KeyframeQueue::Options QueueOptions(bool lossless) {
+  KeyframeQueue::Options options;
+  options.lossless = lossless;
+  options.capacity = options.burst_capacity = 2;
+  return options;
 }
 
 PhotometricFrame FrameOf(const keyframe_t& m) {
@@ -31,169 +36,88 @@ PhotometricFrame FrameOf(const keyframe_t& m) {
 }  // namespace
 
 PhotometricOptimizer::PhotometricOptimizer(Bus* bus, const Channels& channels, const Settings& settings)
-    : bus_(bus),
-      channels_(channels),
-      settings_(settings),
+    : lossless_(settings.lossless),
       status_(bus, channels, "window_optimizer", NewEpoch()),
-      keyframes_(&status_, "KEYFRAME"),
-      pose_hints_(&status_, "POSE_HINT"),
+      keyframe_inbox_(&status_, keyframe_t::EVENT_COUNT, settings.rig.camera),
+      queue_(&status_, QueueOptions(settings.lossless)),
+      hints_(&status_),
+      map_(bus, channels, &status_, kPatience, Clock::now()),
+      publisher_(bus, channels, &status_),
       tracker_(settings.rig, settings.tracker, settings.T_map_body) {
-  const auto on = [&](const std::string& channel, auto method) {
-    bus_->Subscribe(channel, [this, method](const std::string&, const std::uint8_t* data, std::size_t size) {
-      (this->*method)(data, size);
-    });
-  };
-  on(channels_.keyframe, &PhotometricOptimizer::OnKeyframe);
-  on(channels_.map_view, &PhotometricOptimizer::OnView);
-  on(channels_.pose_hint, &PhotometricOptimizer::OnPoseHint);
-  last_mode_.keyframe_seq = -1;
-  last_mode_.keyframe_stride = 1;
+  Subscribe(bus, channels.keyframe, this, &PhotometricOptimizer::OnKeyframe);
+  Subscribe(bus, channels.map_view, this, &PhotometricOptimizer::OnView);
+  Subscribe(bus, channels.pose_hint, this, &PhotometricOptimizer::OnPoseHint);
   status_.SetState("waiting", "waiting for map_server and for keyframes");
   AskForView();
 }
 
 void PhotometricOptimizer::AskForView() {
   asked_view_ = tracker_.NextQuery();
-  query_ = ToMessage(asked_view_);
-  query_.utime = tracker_.state_time();
-  answered_ = false;
-  first_asked_ = asked_ = Clock::now();
-  Send(channels_.view_query, &query_, &query_seq_);
+  view_query_t message = ToMessage(asked_view_);
+  message.utime = tracker_.state_time();
+  map_.Ask(message, Clock::now());
 }
 
 void PhotometricOptimizer::OnView(const std::uint8_t* data, std::size_t size) {
-  map_view_t message;
-  if (!DecodeChecked(data, size, &message)) {
-    ++status_.Counter("MAP_VIEW.invalid");
-    return;
-  }
-  ++status_.Counter("MAP_VIEW.received");
-  if (answered_ || message.query_epoch != query_.epoch || message.query_seq != query_.seq) return;
-  if (message.width != query_.camera.width || message.height != query_.camera.height) {
-    ++status_.Counter("MAP_VIEW.invalid");
-    return;
-  }
-  answered_ = true;
-  status_.AddTiming("map_answer", Milliseconds(Clock::now() - first_asked_));
-  tracker_.SetView(FromMessage(message, asked_view_));
-  ProcessQueue();
+  if (!map_.OnAnswer(data, size, Clock::now())) return;
+  tracker_.SetView(FromMessage(*map_.TakeAnswer(), asked_view_));
+  ProcessNext();
 }
 
 void PhotometricOptimizer::OnKeyframe(const std::uint8_t* data, std::size_t size) {
-  keyframe_t message;
-  if (!DecodeChecked(data, size, &message)) {
-    keyframes_.CountInvalid();
-    return;
+  std::optional<keyframe_t> keyframe = keyframe_inbox_.Decode(data, size);
+  if (!keyframe) return;
+  switch (queue_.Admit(std::move(*keyframe), Clock::now())) {
+    case KeyframeQueue::Admission::kQueued:
+      ProcessNext();
+      break;
+    case KeyframeQueue::Admission::kOld:
+      publisher_.PublishModeAgain();
+      break;
+    case KeyframeQueue::Admission::kOutOfOrder:
+      break;
   }
-  if (!Usable(message)) return;
-  const auto verdict = keyframes_.Look(message.epoch, message.seq);
-  if (settings_.lossless && !InOrder(verdict, message)) {
-    ++status_.Counter("KEYFRAME.out_of_order");  // frame_builder sends the missing one again
-    return;
-  }
-  keyframes_.Accept(message.epoch, message.seq);
-  if (verdict == SequenceCounter::Verdict::kOld) {
-    // Sent again because our answer got lost: answer again.
-    if (last_mode_.keyframe_seq >= 0) Send(channels_.tracker_mode, &last_mode_, &mode_seq_);
-    return;
-  }
-  while (!settings_.lossless && queue_.size() >= kMaxQueue) {
-    queue_.pop_front();
-    ++status_.Counter("KEYFRAME.dropped");
-  }
-  queue_.push_back({std::move(message), Clock::now()});
-  ProcessQueue();
-}
-
-bool PhotometricOptimizer::Usable(const keyframe_t& message) {
-  const Camera& camera = settings_.rig.camera;
-  std::string wrong;
-  if (message.width != camera.width || message.height != camera.height) {
-    wrong = "keyframes are " + std::to_string(message.width) + "x" + std::to_string(message.height) +
-            " but the rig file's camera is not: start frame_builder and window_optimizer with the same --rig";
-  } else if (message.encoding != keyframe_t::EVENT_COUNT) {
-    wrong =
-        "keyframes hold time surfaces, EVPT needs event counts: start frame_builder with the same --config";
-  }
-  if (wrong.empty()) return true;
-  keyframes_.CountInvalid();
-  status_.SetState("failed", wrong);
-  return false;
-}
-
-// As WindowOptimizer has it: a new sender starts with number 0; where this service is the newer one, what the
-// sender sends twice is the oldest it has no answer for.
-bool PhotometricOptimizer::InOrder(SequenceCounter::Verdict verdict, const keyframe_t& message) {
-  if (verdict == SequenceCounter::Verdict::kGap) return false;
-  if (verdict != SequenceCounter::Verdict::kNewEpoch || message.seq == 0) return true;
-  const std::pair<std::int64_t, std::int64_t> number(message.epoch, message.seq);
-  if (refused_ == number) return true;
-  refused_ = number;
-  return false;
 }
 
 void PhotometricOptimizer::OnPoseHint(const std::uint8_t* data, std::size_t size) {
-  body_pose_t message;
-  if (!DecodeChecked(data, size, &message)) {
-    pose_hints_.CountInvalid();
-    return;
-  }
-  if (pose_hints_.Accept(message.epoch, message.seq) == SequenceCounter::Verdict::kOld) return;
-  const double* q = message.orientation;
-  tracker_.StartAnew(
-      {Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(), Eigen::Vector3d(message.position)});
+  hints_.OnMessage(data, size);
+  const std::optional<SE3> T_map_body = hints_.Take();
+  if (!T_map_body) return;
+  tracker_.StartAnew(*T_map_body);
   AskForView();
 }
 
 bool PhotometricOptimizer::ReadyForNext() const {
-  if (answered_) return true;
+  if (map_.answered()) return true;
   // Without any view yet waiting is the only sensible thing.
-  return !settings_.lossless && last_mode_.keyframe_seq >= 0 && Clock::now() - first_asked_ > kViewPatience;
+  return !lossless_ && publisher_.has_answered() && map_.GivenUp(Clock::now());
 }
 
-void PhotometricOptimizer::ProcessQueue() {
+void PhotometricOptimizer::ProcessNext() {
   if (queue_.empty() || !ReadyForNext()) return;
-  const Waiting next = std::move(queue_.front());
-  queue_.pop_front();
+  ProcessedKeyframe processed;
+  processed.keyframe = queue_.Pop();
   const auto begin = Clock::now();
-  const TrackerOutput output = tracker_.Process(FrameOf(next.message));
-  const double solve_ms = Milliseconds(Clock::now() - begin);
+  processed.output = tracker_.Process(FrameOf(processed.keyframe.message));
+  processed.solve_ms = Milliseconds(Clock::now() - begin);
   // The answer is on the way while this one is reported. One that is still awaited is not given up: where
   // views take longer than frames there would never be any.
-  if (answered_) AskForView();
-  Report(output, next, solve_ms);
+  if (map_.answered()) AskForView();
+  Report(processed);
 }
 
-void PhotometricOptimizer::Report(const TrackerOutput& output, const Waiting& keyframe, double solve_ms) {
-  const keyframe_t& message = keyframe.message;
-  status_.AddTiming("solve", solve_ms);
-  if (output.has_pose) {
-    window_state_t window = ToWindowState(output);
-    window.lookahead_us = message.lookahead_us;
-    window.solve_ms = solve_ms;
-    window.total_ms = Milliseconds(Clock::now() - keyframe.arrived);
-    status_.AddTiming("keyframe", window.total_ms);
-    Send(channels_.window_state, &window, &window_seq_);
-    body_pose_t pose = ToBodyPose(message.utime, {tracker_.state().T_map_body, tracker_.state().velocity});
-    Send(channels_.body_pose, &pose, &pose_seq_);
-  }
-  last_mode_ = ToTrackerMode(output, tracker_.state(), message.utime, message.seq);
-  last_mode_.keyframe_epoch = message.epoch;
-  Send(channels_.tracker_mode, &last_mode_, &mode_seq_);
-  static constexpr const char* kModes[] = {"bootstrapping", "tracking", "lost"};
-  ++status_.Counter(std::string("mode.") + kModes[static_cast<int>(output.mode)]);
-  status_.SetState("running", std::string(kModes[static_cast<int>(output.mode)]) + ": " + output.reason);
+void PhotometricOptimizer::Report(const ProcessedKeyframe& processed) {
+  const BodyState& state = tracker_.state();
+  publisher_.PublishWindow(processed);
+  if (processed.output.has_pose)
+    publisher_.PublishPose(processed.keyframe.message.utime, {state.T_map_body, state.velocity});
+  publisher_.PublishMode(processed, state, 1);
 }
 
 void PhotometricOptimizer::Tick() {
-  if (!answered_ && Clock::now() - asked_ > kAskAgain) {
-    ++status_.Counter("VIEW_QUERY.sent_again");
-    EncodeTo(query_, &buffer_);
-    bus_->Publish(channels_.view_query, buffer_.data(), buffer_.size());
-    asked_ = Clock::now();
-  }
-  ProcessQueue();
-  if (!answered_ && Clock::now() - first_asked_ > std::chrono::seconds(2)) {
+  map_.Tick(Clock::now());
+  ProcessNext();
+  if (map_.NobodyAnswers(Clock::now())) {
     status_.SetState(
         "waiting",
         "map_server does not answer: is it running with --photometric-map, on the same URL and prefix?");

@@ -1,23 +1,19 @@
 #pragma once
 
 #include <chrono>
-#include <deque>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
+#include <cstddef>
+#include <cstdint>
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
-#include "common/bus/codec.h"
 #include "common/photometric/photometric_tracker.h"
 #include "common/service/runner.h"
-#include "common/service/sequence_counter.h"
 #include "common/service/status_reporter.h"
-#include "evit/keyframe_t.hpp"
-#include "evit/map_view_t.hpp"
-#include "evit/tracker_mode_t.hpp"
-#include "evit/view_query_t.hpp"
+#include "services/window_optimizer/keyframe_inbox.h"
+#include "services/window_optimizer/keyframe_queue.h"
+#include "services/window_optimizer/pose_hint_inbox.h"
+#include "services/window_optimizer/request_client.h"
+#include "services/window_optimizer/result_publisher.h"
 
 namespace evit {
 
@@ -44,49 +40,24 @@ class PhotometricOptimizer : public Service {
 
  private:
   using Clock = std::chrono::steady_clock;
-  struct Waiting {
-    keyframe_t message;
-    Clock::time_point arrived;
-  };
 
   void OnKeyframe(const std::uint8_t* data, std::size_t size);
   void OnView(const std::uint8_t* data, std::size_t size);
   void OnPoseHint(const std::uint8_t* data, std::size_t size);
-  bool Usable(const keyframe_t& message);
-  bool InOrder(SequenceCounter::Verdict verdict, const keyframe_t& message);
   void AskForView();
   bool ReadyForNext() const;
-  void ProcessQueue();
-  void Report(const TrackerOutput& output, const Waiting& keyframe, double solve_ms);
+  void ProcessNext();
+  void Report(const ProcessedKeyframe& processed);
 
-  template <typename Message>
-  void Send(const std::string& channel, Message* message, std::int64_t* seq);
-
-  Bus* bus_;
-  Channels channels_;
-  Settings settings_;
+  bool lossless_;
   StatusReporter status_;
-  SequenceCounter keyframes_, pose_hints_;
+  KeyframeInbox keyframe_inbox_;
+  KeyframeQueue queue_;
+  PoseHintInbox hints_;
+  RequestClient<MapViewRequest> map_;
+  ViewQuery asked_view_;  // the newest question to the map
+  ResultPublisher publisher_;
   PhotometricTracker tracker_;
-  std::deque<Waiting> queue_;
-
-  ViewQuery asked_view_;
-  view_query_t query_{};
-  bool answered_ = false;
-  Clock::time_point asked_, first_asked_;
-
-  std::pair<std::int64_t, std::int64_t> refused_{-1, -1};  // epoch and seq of the last keyframe out of order
-  tracker_mode_t last_mode_{};
-  std::int64_t window_seq_ = 0, mode_seq_ = 0, pose_seq_ = 0, query_seq_ = 0;
-  std::vector<std::uint8_t> buffer_;
 };
-
-template <typename Message>
-void PhotometricOptimizer::Send(const std::string& channel, Message* message, std::int64_t* seq) {
-  message->seq = (*seq)++;
-  message->epoch = status_.epoch();
-  EncodeTo(*message, &buffer_);
-  bus_->Publish(channel, buffer_.data(), buffer_.size());
-}
 
 }  // namespace evit

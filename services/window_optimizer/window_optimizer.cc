@@ -1,223 +1,257 @@
 #include "services/window_optimizer/window_optimizer.h"
 
+#include <memory>
+#include <optional>
 #include <utility>
 
-#include "common/bus/codec.h"
-#include "services/window_optimizer/merge_imu.h"
+#include "common/bus/subscribe.h"
+#include "common/imu/preintegration.h"
 #include "services/window_optimizer/messages.h"
 
 namespace evit {
 namespace {
 
-constexpr std::size_t kMaxQueue = 4;                        // keyframes waiting, real-time mode
-constexpr std::size_t kMaxBootstrapQueue = 32;              // the same while bootstrapping
-constexpr auto kAskAgain = std::chrono::milliseconds(200);  // an unanswered query is sent again
+// An answer is waited for so long in real time, and not at all where map_server has died: that would cost
+// keyframes again and again. The tracker continues with the points at hand.
+constexpr RequestClient<MapPointsRequest>::Patience kPatience{std::chrono::milliseconds(20),
+                                                              std::chrono::milliseconds(60)};
 
-double Milliseconds(std::chrono::steady_clock::duration d) {
-  return std::chrono::duration<double, std::milli>(d).count();
+KeyframeQueue::Options QueueOptions(bool lossless) {
+  KeyframeQueue::Options options;
+  options.lossless = lossless;
+  options.capacity = 4;
+  options.burst_capacity = 32;
+  options.merge_imu = true;
+  return options;
 }
 
 }  // namespace
 
 WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Settings& settings)
-    : bus_(bus),
-      channels_(channels),
-      settings_(settings),
+    : settings_(settings),
       status_(bus, channels, "window_optimizer", NewEpoch()),
-      keyframes_(&status_, "KEYFRAME"),
-      imu_messages_(&status_, "IMU"),
-      pose_hints_(&status_, "POSE_HINT"),
-      tracker_(settings.rig, settings.tracker, settings.T_map_body) {
-  const auto on = [&](const std::string& channel, auto method) {
-    bus_->Subscribe(channel, [this, method](const std::string&, const std::uint8_t* data, std::size_t size) {
-      (this->*method)(data, size);
-    });
-  };
-  on(channels_.keyframe, &WindowOptimizer::OnKeyframe);
-  on(channels_.map_points, &WindowOptimizer::OnMapPoints);
-  on(channels_.imu, &WindowOptimizer::OnImu);
-  on(channels_.pose_hint, &WindowOptimizer::OnPoseHint);
-  last_mode_.keyframe_seq = -1;
-  last_mode_.keyframe_stride = 1;
+      keyframe_inbox_(&status_, keyframe_t::TIME_SURFACE, settings.rig.camera),
+      queue_(&status_, QueueOptions(settings.lossless)),
+      imu_(&status_),
+      imu_rate_pose_(settings.rig.gravity),
+      hints_(&status_),
+      map_(bus, channels, &status_, kPatience, Clock::now()),
+      load_(&status_),
+      restart_(settings.lossless ? "" : settings.checkpoint),
+      publisher_(bus, channels, &status_),
+      worker_(std::make_unique<Tracker>(settings.rig, settings.tracker, settings.T_map_body),
+              settings.lossless ? TrackerWorker::Threading::kCallersThread
+                                : TrackerWorker::Threading::kOwnThread) {
+  Subscribe(bus, channels.keyframe, this, &WindowOptimizer::OnKeyframe);
+  Subscribe(bus, channels.map_points, this, &WindowOptimizer::OnMapPoints);
+  Subscribe(bus, channels.imu, this, &WindowOptimizer::OnImu);
+  Subscribe(bus, channels.pose_hint, this, &WindowOptimizer::OnPoseHint);
   status_.SetState("waiting", "waiting for map_server and for keyframes");
-  if (!settings.lossless && !settings.checkpoint.empty()) {
-    checkpoint_file_.emplace(settings.checkpoint);
-    checkpoint_ = checkpoint_file_->Load();
-    if (checkpoint_) {
-      tracker_.StartFrom(checkpoint_->state);
-      catch_up_.emplace(checkpoint_->keyframe_epoch, checkpoint_->keyframe_seq);
-      AnnounceCheckpoint();
-    }
+  if (restart_.checkpoint()) {
+    worker_.at_rest()->StartFrom(restart_.checkpoint()->state);
+    publisher_.PublishAnnouncement(restart_.Announce(Clock::now()));
   }
-  AskForPoints(tracker_.NextQuery());
-}
-
-void WindowOptimizer::AskForPoints(const VisibilityQuery& query) {
-  query_ = ToMessage(query);
-  query_.utime = tracker_.state_time();
-  if (answered_) unanswered_since_ = Clock::now();
-  answered_ = false;
-  first_asked_ = asked_ = Clock::now();
-  Send(channels_.map_query, &query_, &query_seq_);
-}
-
-// The very same query: its number tells which answer is awaited.
-void WindowOptimizer::AskAgain() {
-  ++status_.Counter("MAP_QUERY.sent_again");
-  EncodeTo(query_, &buffer_);
-  bus_->Publish(channels_.map_query, buffer_.data(), buffer_.size());
-  asked_ = Clock::now();
-}
-
-void WindowOptimizer::OnMapPoints(const std::uint8_t* data, std::size_t size) {
-  map_points_t message;
-  if (!DecodeChecked(data, size, &message)) {
-    ++status_.Counter("MAP_POINTS.invalid");
-    return;
-  }
-  ++status_.Counter("MAP_POINTS.received");
-  unanswered_since_ = Clock::now();
-  if (answered_ || message.query_epoch != query_.epoch || message.query_seq != query_.seq) return;
-  answered_ = true;
-  status_.AddTiming("map_answer", Milliseconds(Clock::now() - first_asked_));
-  if (work_) {
-    answer_ = std::move(message);  // for the keyframe after the one in work
-  } else {
-    tracker_.AddVisible(message.id, PointsOf(message));
-  }
-  ProcessQueue();
+  AskForPoints(worker_.at_rest()->NextQuery());
 }
 
 void WindowOptimizer::OnKeyframe(const std::uint8_t* data, std::size_t size) {
-  keyframe_t message;
-  if (!DecodeChecked(data, size, &message)) {
-    keyframes_.CountInvalid();
-    return;
-  }
-  if (message.encoding != keyframe_t::TIME_SURFACE) {
-    keyframes_.CountInvalid();
-    status_.SetState("failed",
-                     "keyframes hold event counts, not time surfaces: start frame_builder and "
-                     "window_optimizer with the same --config");
-    return;
-  }
-  if (message.width != settings_.rig.camera.width || message.height != settings_.rig.camera.height) {
-    keyframes_.CountInvalid();
-    status_.SetState("failed",
-                     "keyframes are " + std::to_string(message.width) + "x" + std::to_string(message.height) +
-                         " but the rig file's camera is not: start frame_builder and window_optimizer with "
-                         "the same --rig");
-    return;
-  }
-  if (catch_up_) {
-    catch_up_->Add(std::move(message), Clock::now());
+  std::optional<keyframe_t> keyframe = keyframe_inbox_.Decode(data, size);
+  if (!keyframe) return;
+  if (restart_.collecting()) {
+    restart_.Collect(std::move(*keyframe), Clock::now());
     CatchUp();
     return;
   }
-  const auto verdict = keyframes_.Look(message.epoch, message.seq);
-  if (settings_.lossless && !InOrder(verdict, message)) {
-    ++status_.Counter("KEYFRAME.out_of_order");  // frame_builder sends the missing one again
-    return;
+  switch (queue_.Admit(std::move(*keyframe), Clock::now())) {
+    case KeyframeQueue::Admission::kQueued:
+      ProcessQueue();
+      break;
+    case KeyframeQueue::Admission::kOld:
+      publisher_.PublishModeAgain();
+      break;
+    case KeyframeQueue::Admission::kOutOfOrder:
+      break;
   }
-  keyframes_.Accept(message.epoch, message.seq);
-  if (verdict == SequenceCounter::Verdict::kNewEpoch) caught_up_ = -1;
-  if (verdict == SequenceCounter::Verdict::kOld) {
-    // Sent again because our answer got lost: answer again.
-    if (last_mode_.keyframe_seq >= 0) Send(channels_.tracker_mode, &last_mode_, &mode_seq_);
-    return;
-  }
-  Queue(std::move(message));
+}
+
+void WindowOptimizer::OnMapPoints(const std::uint8_t* data, std::size_t size) {
+  if (!map_.OnAnswer(data, size, Clock::now())) return;
+  UsePoints();
   ProcessQueue();
 }
 
-// Lossless: whether this is the keyframe to take next. A new sender starts with number 0; where this service
-// itself is the newer one, the sender is further on, and what it sends twice is the oldest it still has no
-// answer for.
-bool WindowOptimizer::InOrder(SequenceCounter::Verdict verdict, const keyframe_t& message) {
-  if (verdict == SequenceCounter::Verdict::kGap) return false;
-  if (verdict != SequenceCounter::Verdict::kNewEpoch || message.seq == 0) return true;
-  const std::pair<std::int64_t, std::int64_t> number(message.epoch, message.seq);
-  if (refused_ == number) return true;
-  refused_ = number;
-  return false;
-}
-
-void WindowOptimizer::Queue(keyframe_t message) {
-  // High-rate frames may wait: they come in a burst at the start, and bootstrapping needs each.
-  // So may those since the last checkpoint.
-  const bool patient =
-      !queue_.empty() && (queue_.front().message.high_rate != 0 || queue_.front().message.seq <= caught_up_);
-  const std::size_t longest = patient ? kMaxBootstrapQueue : kMaxQueue;
-  while (!settings_.lossless && queue_.size() >= longest) {
-    MergeImu(queue_.front().message, queue_.size() > 1 ? &queue_[1].message : &message);
-    queue_.pop_front();
-    ++status_.Counter("KEYFRAME.dropped");
-  }
-  queue_.push_back({std::move(message), Clock::now()});
-}
-
 void WindowOptimizer::OnImu(const std::uint8_t* data, std::size_t size) {
-  imu_batch_t message;
-  if (!DecodeChecked(data, size, &message)) {
-    imu_messages_.CountInvalid();
-    return;
-  }
-  if (imu_messages_.Accept(message.epoch, message.seq) == SequenceCounter::Verdict::kNewEpoch) imu_.Clear();
-  for (int i = 0; i < message.n; ++i) {
-    const ImuSample sample{message.sample_utime[i], Eigen::Vector3d(message.gyro[i].data()),
-                           Eigen::Vector3d(message.accel[i].data())};
-    if (!imu_.Add(sample) || settings_.lossless || live_time_ == 0) continue;
-    const std::vector<ImuSample> samples = imu_.Between(live_time_, sample.t);
-    if (samples.empty()) continue;
-    // From the newest keyframe, whose state may have come since: a few samples, and always the best estimate.
-    body_pose_t pose = ToBodyPose(sample.t, PropagateImu(live_, samples, live_bias_, settings_.rig.gravity));
-    Send(channels_.body_pose, &pose, &pose_seq_);
+  for (const ImuSample& sample : imu_.OnMessage(data, size)) {
+    const std::optional<NavState> state = imu_rate_pose_.At(sample.t, imu_.history());
+    if (state) publisher_.PublishPose(sample.t, *state);
   }
 }
 
 void WindowOptimizer::OnPoseHint(const std::uint8_t* data, std::size_t size) {
-  body_pose_t message;
-  if (!DecodeChecked(data, size, &message)) {
-    pose_hints_.CountInvalid();
+  hints_.OnMessage(data, size);
+  UseHint();
+}
+
+void WindowOptimizer::ProcessQueue() {
+  while (true) {
+    if (worker_.working() && !FinishWork(TrackerWorker::Wait::kNo)) return;
+    if (queue_.empty() || !ReadyForNext()) return;
+    if (restart_.checkpoint()) {
+      StartFromCheckpoint();
+      return;  // its points first
+    }
+    // While tracking, the high-rate frames that queued up tell nothing that the newest does not.
+    if (worker_.at_rest()->mode() == TrackerMode::kTracking) queue_.DropSuperseded();
+    StartWork(queue_.Pop());
+    if (settings_.lossless) FinishWork(TrackerWorker::Wait::kYes);
+  }
+}
+
+bool WindowOptimizer::ReadyForNext() const {
+  if (map_.answered()) return true;
+  // Without any answer yet there are no points at all: waiting is the only sensible thing.
+  return !settings_.lossless && publisher_.has_answered() && map_.GivenUp(Clock::now());
+}
+
+void WindowOptimizer::StartWork(QueuedKeyframe next) {
+  Tracker* const tracker = worker_.at_rest();
+  const bool tracking = tracker->mode() == TrackerMode::kTracking;
+  if (!settings_.lossless) LimitWork(next, tracking);
+  KeyframeInput input = InputOf(next.message);
+  if (settings_.lossless && tracking) PublishPoses(input.imu, tracker->state());
+  if (tracking) AskForPoints(tracker->QueryAfter(input));
+  asked_ahead_ = tracking;
+  worker_.Start(std::move(next), std::move(input));
+}
+
+void WindowOptimizer::LimitWork(const QueuedKeyframe& next, bool tracking) {
+  const bool shows_load = tracking && !queue_.LateByRestart(next.message);
+  const LoadLimiter::Limits limits = load_.Begin(next, shows_load, !queue_.empty(), Clock::now());
+  worker_.at_rest()->set_point_share(limits.point_share);
+  worker_.at_rest()->set_solve_budget(limits.solve_budget);
+}
+
+KeyframeInput WindowOptimizer::InputOf(const keyframe_t& keyframe) {
+  KeyframeInput input = FromMessage(keyframe);
+  const Utime state_time = worker_.at_rest()->state_time();
+  if (state_time != 0 && keyframe.previous_utime != state_time) {
+    // A keyframe between was lost, or frame_builder was restarted: the IMU samples since are our own.
+    input.imu = imu_.history().Between(state_time, input.t);
+    input.imu_gap = ImuHistory::LongestGap(input.imu);
+    ++status_.Counter("KEYFRAME.bridged");
+  }
+  return input;
+}
+
+bool WindowOptimizer::FinishWork(TrackerWorker::Wait wait) {
+  const std::optional<ProcessedKeyframe> processed = worker_.Finish(wait);
+  if (!processed) return false;
+  Report(*processed);
+  const bool tracking = processed->output.mode == TrackerMode::kTracking;
+  if (!asked_ahead_ || !tracking) AskForPoints(worker_.at_rest()->NextQuery());
+  UsePoints();
+  UseHint();
+  return true;
+}
+
+void WindowOptimizer::Report(const ProcessedKeyframe& processed) {
+  const Tracker& tracker = *worker_.at_rest();
+  const keyframe_t& keyframe = processed.keyframe.message;
+  const TrackerOutput& output = processed.output;
+  publisher_.PublishWindow(processed);
+  publisher_.PublishMode(processed, tracker.state(), load_.keyframe_stride());
+  if (restart_.keeps() && output.has_pose) {
+    restart_.Store({keyframe.utime, keyframe.epoch, keyframe.seq, tracker.state(), output.information,
+                    tracker.rate(), output.image_speed});
+  }
+  if (!settings_.lossless && output.mode == TrackerMode::kTracking) {
+    imu_rate_pose_.StartFrom(keyframe.utime, tracker.state());
+  } else {
+    imu_rate_pose_.Stop();
+  }
+}
+
+// Lossless, hence deterministic: the poses of an interval come from the state before it, as they would have
+// live.
+void WindowOptimizer::PublishPoses(const std::vector<ImuSample>& samples, const BodyState& from) {
+  NavState state{from.T_map_body, from.velocity};
+  for (std::size_t k = 1; k < samples.size(); ++k) {
+    state = PropagateImu(state, {samples[k - 1], samples[k]}, from.bias, settings_.rig.gravity);
+    publisher_.PublishPose(samples[k].t, state);
+  }
+}
+
+void WindowOptimizer::AskForPoints(const VisibilityQuery& query) {
+  map_query_t message = ToMessage(query);
+  message.utime = worker_.at_rest()->state_time();
+  map_.Ask(message, Clock::now());
+}
+
+// Those that come while a keyframe is in work are for the one after it.
+void WindowOptimizer::UsePoints() {
+  Tracker* const tracker = worker_.at_rest();
+  if (tracker == nullptr) return;
+  const std::optional<map_points_t> answer = map_.TakeAnswer();
+  if (answer) tracker->AddVisible(answer->id, PointsOf(*answer));
+}
+
+void WindowOptimizer::UseHint() {
+  Tracker* const tracker = worker_.at_rest();
+  if (tracker == nullptr) return;
+  const std::optional<SE3> T_map_body = hints_.Take();
+  if (!T_map_body) return;
+  tracker->StartAnew(*T_map_body);
+  restart_.Done();
+  imu_rate_pose_.Stop();
+  AskForPoints(tracker->NextQuery());
+}
+
+// Nothing is in work before all keyframes since the checkpoint are here.
+void WindowOptimizer::CatchUp() {
+  const auto now = Clock::now();
+  const KeyframeCatchUp::Verdict progress = restart_.Progress(now);
+  if (progress == KeyframeCatchUp::Verdict::kWaiting) {
+    if (restart_.AnnouncementDue(now)) publisher_.PublishAnnouncement(restart_.Announce(now));
     return;
   }
-  if (pose_hints_.Accept(message.epoch, message.seq) == SequenceCounter::Verdict::kOld) return;
-  const double* q = message.orientation;
-  hint_ = SE3{Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(), Eigen::Vector3d(message.position)};
-  if (!work_) TakeHint();
-}
-
-void WindowOptimizer::TakeHint() {
-  if (!hint_) return;
-  tracker_.StartAnew(*hint_);
-  hint_.reset();
-  checkpoint_.reset();
-  catch_up_.reset();
-  live_time_ = 0;
-  AskForPoints(tracker_.NextQuery());
-}
-
-void WindowOptimizer::PublishPoses(const std::vector<ImuSample>& samples, NavState from,
-                                   const ImuBias& bias) {
-  for (std::size_t k = 1; k < samples.size(); ++k) {
-    from = PropagateImu(from, {samples[k - 1], samples[k]}, bias, tracker_.gravity());
-    body_pose_t pose = ToBodyPose(samples[k].t, from);
-    Send(channels_.body_pose, &pose, &pose_seq_);
+  std::vector<keyframe_t> keyframes = restart_.TakeKeyframes();
+  if (progress == KeyframeCatchUp::Verdict::kWhole) {
+    const Checkpoint& checkpoint = *restart_.checkpoint();
+    if (checkpoint.tracking())
+      worker_.at_rest()->Resume(checkpoint.t, checkpoint.state, checkpoint.information);
+    restart_.Done();
+    queue_.ExpectBurstUpTo(keyframes.back().seq);
+    ++status_.Counter("checkpoint.resumed");
+    status_.Counter("checkpoint.keyframes_again") += static_cast<std::int64_t>(keyframes.size());
   }
+  queue_.AdmitCollected(std::move(keyframes), now);
+  ProcessQueue();
+}
+
+// The keyframes since the checkpoint are gone: at the first one there is, the tracker starts where the body
+// must be then.
+void WindowOptimizer::StartFromCheckpoint() {
+  BodyState initial;
+  initial.T_map_body = settings_.T_map_body;
+  const std::optional<BodyState> predicted = restart_.PredictedAt(queue_.front().message.utime);
+  worker_.at_rest()->StartFrom(predicted.value_or(initial));
+  ++status_.Counter(predicted ? "checkpoint.used" : "checkpoint.stale");
+  restart_.Done();
+  AskForPoints(worker_.at_rest()->NextQuery());
 }
 
 void WindowOptimizer::Tick() {
-  if (!answered_ && Clock::now() - asked_ > kAskAgain) AskAgain();
-  if (catch_up_) CatchUp();
+  map_.Tick(Clock::now());
+  if (restart_.collecting()) CatchUp();
   ProcessQueue();
-  if (!answered_ && Clock::now() - first_asked_ > std::chrono::seconds(2)) {
+  if (map_.NobodyAnswers(Clock::now())) {
     status_.SetState("waiting", "map_server does not answer: is it running, on the same URL and prefix?");
   }
   status_.Tick();
 }
 
 void WindowOptimizer::Stop() {
-  if (work_) FinishWork(true);
+  FinishWork(TrackerWorker::Wait::kYes);
   status_.SetState("finished", "stopped");
 }
 

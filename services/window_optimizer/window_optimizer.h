@@ -1,28 +1,26 @@
 #pragma once
 
 #include <chrono>
-#include <deque>
-#include <future>
-#include <optional>
+#include <cstddef>
+#include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
-#include "common/bus/codec.h"
 #include "common/service/runner.h"
-#include "common/service/sequence_counter.h"
 #include "common/service/status_reporter.h"
 #include "common/tracking/tracker.h"
-#include "evit/keyframe_t.hpp"
-#include "evit/map_points_t.hpp"
-#include "evit/map_query_t.hpp"
-#include "evit/tracker_mode_t.hpp"
-#include "services/window_optimizer/catch_up.h"
-#include "services/window_optimizer/checkpoint.h"
-#include "services/window_optimizer/imu_history.h"
-#include "services/window_optimizer/load_governor.h"
+#include "services/window_optimizer/imu_inbox.h"
+#include "services/window_optimizer/imu_rate_pose.h"
+#include "services/window_optimizer/keyframe_inbox.h"
+#include "services/window_optimizer/keyframe_queue.h"
+#include "services/window_optimizer/load_limiter.h"
+#include "services/window_optimizer/pose_hint_inbox.h"
+#include "services/window_optimizer/request_client.h"
+#include "services/window_optimizer/restart_coordinator.h"
+#include "services/window_optimizer/result_publisher.h"
+#include "services/window_optimizer/tracker_worker.h"
 
 namespace evit {
 
@@ -31,10 +29,10 @@ namespace evit {
 ///
 /// The points for the next keyframe are asked for before one is processed, so that map_server works
 /// meanwhile. Lossless: a keyframe waits for that answer, and keyframes are taken in exact order. Real time:
-/// nothing waits longer than kAnswerPatience, work is cut down while keyframes wait (LoadGovernor), and the
-/// IMU samples of a keyframe that was dropped all the same are bridged from the service's own. Restarted with
-/// a checkpoint it asks frame_builder for the keyframes since and goes on as if nothing had been
-/// (restart.cc).
+/// nothing waits longer than 20 ms for an answer, work is cut down while keyframes wait (LoadLimiter), and
+/// the IMU samples of a keyframe that was dropped all the same are bridged from the service's own. Restarted
+/// with a checkpoint it asks frame_builder for the keyframes since and continues as if nothing had been
+/// (RestartCoordinator).
 class WindowOptimizer : public Service {
  public:
   struct Settings {
@@ -49,9 +47,9 @@ class WindowOptimizer : public Service {
 
   void Tick() override;
   void Stop() override;
-  int poll_timeout_ms() const override { return work_ ? 1 : 10; }  // a finished keyframe does not wait long
+  int poll_timeout_ms() const override { return worker_.working() ? 1 : 10; }  // a result does not wait long
   /// A keyframe waits or is in work.
-  bool busy() const { return work_.has_value() || !queue_.empty(); }
+  bool busy() const { return worker_.working() || !queue_.empty(); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -60,83 +58,35 @@ class WindowOptimizer : public Service {
   void OnMapPoints(const std::uint8_t* data, std::size_t size);
   void OnImu(const std::uint8_t* data, std::size_t size);
   void OnPoseHint(const std::uint8_t* data, std::size_t size);
-  void TakeHint();
-  bool InOrder(SequenceCounter::Verdict verdict, const keyframe_t& message);
-  void Queue(keyframe_t message);
-  struct Waiting {
-    keyframe_t message;
-    Clock::time_point arrived;
-  };
+
   void ProcessQueue();
-  bool Resumed();
-  void CatchUp();
-  void AnnounceCheckpoint();
-  void DropSuperseded();
-  void StartWork(Waiting next);
-  /// False where it is not done and `wait` is not set.
-  bool FinishWork(bool wait);
-  void Govern(double waited_ms);
   bool ReadyForNext() const;
+  void StartWork(QueuedKeyframe next);
+  void LimitWork(const QueuedKeyframe& next, bool tracking);
+  KeyframeInput InputOf(const keyframe_t& keyframe);
+  bool FinishWork(TrackerWorker::Wait wait);
+  void Report(const ProcessedKeyframe& processed);
+  void PublishPoses(const std::vector<ImuSample>& samples, const BodyState& from);
+
   void AskForPoints(const VisibilityQuery& query);
-  void AskAgain();
-  void Report(const TrackerOutput& output, const keyframe_t& message, double solve_ms,
-              Clock::time_point arrived);
-  void PublishPoses(const std::vector<ImuSample>& samples, NavState from, const ImuBias& bias);
+  void UsePoints();
+  void UseHint();
+  void CatchUp();
+  void StartFromCheckpoint();
 
-  template <typename Message>
-  void Send(const std::string& channel, Message* message, std::int64_t* seq);
-
-  Bus* bus_;
-  Channels channels_;
   Settings settings_;
   StatusReporter status_;
-  SequenceCounter keyframes_;
-  SequenceCounter imu_messages_;
-  SequenceCounter pose_hints_;
-  Tracker tracker_;
-  ImuHistory imu_;
-  LoadGovernor governor_;  // real time only
-
-  std::deque<Waiting> queue_;
-  Clock::time_point last_arrived_;  // of the keyframe in work
-
-  map_query_t query_{};
-  bool answered_ = false;
-  Clock::time_point unanswered_since_ = Clock::now();  // map_server has not been heard since, though asked
-  Clock::time_point asked_;
-  Clock::time_point first_asked_;
-
-  std::pair<std::int64_t, std::int64_t> refused_{-1, -1};  // epoch and seq of the last keyframe out of order
-  tracker_mode_t last_mode_{};
-  std::optional<CheckpointFile> checkpoint_file_;
-  std::optional<Checkpoint> checkpoint_;     // to go on from, until the first keyframe
-  std::optional<KeyframeCatchUp> catch_up_;  // until the keyframes since then are here
-  Clock::time_point announced_;              // the checkpoint
-  std::int64_t caught_up_ = -1;              // number of the newest of those keyframes
-  NavState live_;                            // where IMU-rate poses start from, real-time mode
-  ImuBias live_bias_;
-  Utime live_time_ = 0;
-  std::int64_t window_seq_ = 0, mode_seq_ = 0, pose_seq_ = 0, query_seq_ = 0;
-  std::vector<std::uint8_t> buffer_;
-
-  /// The keyframe that tracker_ is busy with. Last member: its thread ends before anything else is gone.
-  struct Work {
-    keyframe_t keyframe;
-    Clock::time_point arrived;
-    bool asked;                                            // for the points of the next keyframe
-    std::future<std::pair<TrackerOutput, double>> result;  // with ms
-  };
-  std::optional<map_points_t> answer_;  // came meanwhile
-  std::optional<SE3> hint_;             // the same
-  std::optional<Work> work_;
+  KeyframeInbox keyframe_inbox_;
+  KeyframeQueue queue_;
+  ImuInbox imu_;
+  ImuRatePose imu_rate_pose_;  // real time only
+  PoseHintInbox hints_;
+  RequestClient<MapPointsRequest> map_;
+  LoadLimiter load_;  // real time only
+  RestartCoordinator restart_;
+  ResultPublisher publisher_;
+  TrackerWorker worker_;
+  bool asked_ahead_ = false;  // for the points of the keyframe after the one in work
 };
-
-template <typename Message>
-void WindowOptimizer::Send(const std::string& channel, Message* message, std::int64_t* seq) {
-  message->seq = (*seq)++;
-  message->epoch = status_.epoch();
-  EncodeTo(*message, &buffer_);
-  bus_->Publish(channel, buffer_.data(), buffer_.size());
-}
 
 }  // namespace evit

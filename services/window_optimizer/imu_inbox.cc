@@ -1,0 +1,23 @@
+#include "services/window_optimizer/imu_inbox.h"
+
+#include "common/bus/codec.h"
+
+namespace evit {
+
+std::vector<ImuSample> ImuInbox::OnMessage(const std::uint8_t* data, std::size_t size) {
+  imu_batch_t message;
+  if (!DecodeChecked(data, size, &message)) {
+    counter_.CountInvalid();
+    return {};
+  }
+  if (counter_.Accept(message.epoch, message.seq) == SequenceCounter::Verdict::kNewEpoch) history_.Clear();
+  std::vector<ImuSample> samples;
+  for (int i = 0; i < message.n; ++i) {
+    const ImuSample sample{message.sample_utime[i], Eigen::Vector3d(message.gyro[i].data()),
+                           Eigen::Vector3d(message.accel[i].data())};
+    if (history_.Add(sample)) samples.push_back(sample);
+  }
+  return samples;
+}
+
+}  // namespace evit
