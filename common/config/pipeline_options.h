@@ -12,7 +12,8 @@ struct PipelineOptions {
   enum class Method {
     kEvit,  // the window: events and IMU
     kEvt,   // the paper's baseline: each frame localised by its events alone, from the previous pose; no IMU
-    kEvpt   // the paper's other baseline: events against brightness changes predicted from a photometric map; no IMU
+    kEvpt   // the paper's other baseline: events against brightness changes predicted from a photometric map;
+            // no IMU
   };
   Method method = Method::kEvit;
   KeyframeOptions keyframes;
@@ -23,5 +24,14 @@ struct PipelineOptions {
   FailureOptions failure;
   PhotometricOptions photometric;
 };
+
+/// What is in force where a settings file says nothing but the method. EVT predicts nothing, as in the paper.
+inline PipelineOptions DefaultsOf(PipelineOptions::Method method) {
+  PipelineOptions options;
+  options.method = method;
+  if (method == PipelineOptions::Method::kEvt)
+    options.window.motion_model = WindowOptions::MotionModel::kPreviousPose;
+  return options;
+}
 
 }  // namespace evit

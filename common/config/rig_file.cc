@@ -1,19 +1,77 @@
 #include "common/config/rig_file.h"
 
-#include <charconv>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
+#include "common/config/config_error.h"
+#include "common/config/field_rules.h"
+#include "common/config/rig.pb.h"
+#include "common/config/text_file.h"
+
 namespace evit {
 namespace {
 
-// The shortest text that reads back as the same number.
-std::string Text(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+// A rig file's message, and where its values stand.
+struct RigText {
+  explicit RigText(const std::string& file) : path(file), settings(ParseTextFile(file, &message)) {}
+
+  // Throws ConfigError about the value of `field`.
+  void Require(bool condition, const std::string& field, const std::string& what) const {
+    if (condition) return;
+    const auto found =
+        std::find_if(settings.begin(), settings.end(), [&](const Setting& s) { return s.path == field; });
+    throw ConfigError((found == settings.end() ? path : found->Place()) + ": " + field + ": " + what);
+  }
+
+  std::string path;
+  config::Rig message;
+  std::vector<Setting> settings;
+};
+
+SE3 ToSE3(const RigText& rig, const config::Transform& t, const std::string& name) {
+  const std::string field = name + ".m";
+  rig.Require(t.m_size() == 16, field,
+              "16 numbers are expected (4x4, row-major), got " + std::to_string(t.m_size()));
+  const Eigen::Matrix4d m = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(t.m().data());
+  const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
+  rig.Require(
+      (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3 && std::abs(R.determinant() - 1) < 1e-3,
+      field, "the upper left 3x3 is not a rotation (rows of length 1, at right angles, right-handed)");
+  rig.Require((m.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() < 1e-9, field,
+              "the last row must be 0 0 0 1");
+  return SE3(m);
+}
+
+Camera ToCamera(const RigText& rig) {
+  const config::Camera& c = rig.message.camera();
+  Camera camera;
+  rig.Require(CameraModelFromName(c.model(), &camera.model), "camera.model",
+              "\"" + c.model() + "\" is not known; use \"plumb_bob\" or \"equidistant\"");
+  rig.Require(c.cx() <= c.width(), "camera.cx", "must lie in the image (pixels, not normalised)");
+  rig.Require(c.cy() <= c.height(), "camera.cy", "must lie in the image (pixels, not normalised)");
+  rig.Require(c.distortion_size() == 4 || c.distortion_size() == 5, "camera.distortion",
+              "4 or 5 numbers are expected, got " + std::to_string(c.distortion_size()));
+  camera.width = c.width();
+  camera.height = c.height();
+  camera.fx = c.fx();
+  camera.fy = c.fy();
+  camera.cx = c.cx();
+  camera.cy = c.cy();
+  std::copy(c.distortion().begin(), c.distortion().end(), camera.distortion.begin());
+  return camera;
+}
+
+ImuNoise ToImuNoise(const config::Imu& imu) {
+  ImuNoise noise{imu.gyro_noise_density(), imu.accel_noise_density(), imu.gyro_random_walk(),
+                 imu.accel_random_walk()};
+  if (imu.has_gyro_range()) noise.gyro_range = imu.gyro_range();
+  if (imu.has_accel_range()) noise.accel_range = imu.accel_range();
+  return noise;
 }
 
 // In double quotes, with what protobuf's text format would take for more than a letter escaped.
@@ -33,7 +91,7 @@ std::string TransformText(const char* name, const SE3& T) {
   std::string out = std::string(name) + " {\n";
   for (int row = 0; row < 4; ++row) {
     out += "  m: [";
-    for (int column = 0; column < 4; ++column) out += (column > 0 ? ", " : "") + Text(m(row, column));
+    for (int column = 0; column < 4; ++column) out += (column > 0 ? ", " : "") + NumberText(m(row, column));
     out += "]\n";
   }
   return out + "}\n";
@@ -42,11 +100,12 @@ std::string TransformText(const char* name, const SE3& T) {
 std::string CameraText(const Camera& c, Utime time_offset) {
   const bool plumb_bob = c.model == Camera::Model::kPlumbBob;
   std::string distortion;
-  for (int k = 0; k < (plumb_bob ? 5 : 4); ++k) distortion += (k > 0 ? ", " : "") + Text(c.distortion[k]);
+  for (int k = 0; k < (plumb_bob ? 5 : 4); ++k)
+    distortion += (k > 0 ? ", " : "") + NumberText(c.distortion[k]);
   return std::string("camera {\n  model: ") + Quoted(CameraModelName(c.model)) +
          "\n  width: " + std::to_string(c.width) + "  # pixels\n  height: " + std::to_string(c.height) +
-         "  # pixels\n  fx: " + Text(c.fx) + "  # pixels\n  fy: " + Text(c.fy) +
-         "  # pixels\n  cx: " + Text(c.cx) + "  # pixels\n  cy: " + Text(c.cy) +
+         "  # pixels\n  fx: " + NumberText(c.fx) + "  # pixels\n  fy: " + NumberText(c.fy) +
+         "  # pixels\n  cx: " + NumberText(c.cx) + "  # pixels\n  cy: " + NumberText(c.cy) +
          "  # pixels\n  distortion: [" + distortion + "]  # " +
          (plumb_bob ? "k1 k2 p1 p2 k3" : "k1 k2 k3 k4") +
          "\n  time_offset_us: " + std::to_string(time_offset) +
@@ -56,15 +115,34 @@ std::string CameraText(const Camera& c, Utime time_offset) {
 std::string ImuText(double rate_hz, const ImuNoise& n) {
   // No limit is no key.
   const std::string ranges =
-      (std::isfinite(n.gyro_range) ? "\n  gyro_range: " + Text(n.gyro_range) + "  # rad/s, full scale" : "") +
-      (std::isfinite(n.accel_range) ? "\n  accel_range: " + Text(n.accel_range) + "  # m/s^2" : "");
-  return "imu {\n  rate_hz: " + Text(rate_hz) + "\n  gyro_noise_density: " + Text(n.gyro_density) +
-         "  # rad/s/sqrt(Hz)" + "\n  accel_noise_density: " + Text(n.accel_density) + "  # m/s^2/sqrt(Hz)" +
-         "\n  gyro_random_walk: " + Text(n.gyro_random_walk) + "  # rad/s^2/sqrt(Hz)" +
-         "\n  accel_random_walk: " + Text(n.accel_random_walk) + "  # m/s^3/sqrt(Hz)" + ranges + "\n}\n";
+      (std::isfinite(n.gyro_range) ? "\n  gyro_range: " + NumberText(n.gyro_range) + "  # rad/s, full scale"
+                                   : "") +
+      (std::isfinite(n.accel_range) ? "\n  accel_range: " + NumberText(n.accel_range) + "  # m/s^2" : "");
+  return "imu {\n  rate_hz: " + NumberText(rate_hz) +
+         "\n  gyro_noise_density: " + NumberText(n.gyro_density) + "  # rad/s/sqrt(Hz)" +
+         "\n  accel_noise_density: " + NumberText(n.accel_density) + "  # m/s^2/sqrt(Hz)" +
+         "\n  gyro_random_walk: " + NumberText(n.gyro_random_walk) + "  # rad/s^2/sqrt(Hz)" +
+         "\n  accel_random_walk: " + NumberText(n.accel_random_walk) + "  # m/s^3/sqrt(Hz)" + ranges +
+         "\n}\n";
 }
 
 }  // namespace
+
+Rig LoadRig(const std::string& path) {
+  const RigText text(path);
+  const config::Rig& message = text.message;
+  Rig rig;
+  rig.camera = ToCamera(text);
+  rig.camera_time_offset = std::llround(message.camera().time_offset_us());
+  rig.T_body_camera = ToSE3(text, message.t_body_camera(), "T_body_camera");
+  if (message.has_t_marker_body()) rig.T_marker_body = ToSE3(text, message.t_marker_body(), "T_marker_body");
+  rig.imu_rate_hz = message.imu().rate_hz();
+  rig.imu_noise = ToImuNoise(message.imu());
+  rig.gravity = message.gravity();
+  return rig;
+}
+
+std::string LoadRigName(const std::string& path) { return RigText(path).message.name(); }
 
 void WriteRig(const std::string& path, const Rig& rig, const std::string& name, const std::string& comment) {
   std::ostringstream text;
@@ -75,7 +153,7 @@ void WriteRig(const std::string& path, const Rig& rig, const std::string& name, 
        << ImuText(rig.imu_rate_hz, rig.imu_noise) << "\n# Event camera to body (= IMU), row-major 4x4.\n"
        << TransformText("T_body_camera", rig.T_body_camera)
        << "\n# Body to the frame that the ground truth tells of, row-major 4x4.\n"
-       << TransformText("T_marker_body", rig.T_marker_body) << "\ngravity: " << Text(rig.gravity)
+       << TransformText("T_marker_body", rig.T_marker_body) << "\ngravity: " << NumberText(rig.gravity)
        << "  # m/s^2, along -z of the map frame\n";
   const std::string part = path + ".part";
   std::ofstream file(part, std::ios::binary);

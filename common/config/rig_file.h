@@ -6,6 +6,14 @@
 
 namespace evit {
 
+/// Reads a rig file (schema: common/config/rig.proto). Throws ConfigError naming file, line and remedy: not
+/// readable, unknown or missing key, wrong number of values, a rotation that is not one, a value out of
+/// range.
+Rig LoadRig(const std::string& path);
+
+/// A rig file's name for people. Throws ConfigError as LoadRig does.
+std::string LoadRigName(const std::string& path);
+
 /// Writes a rig file that LoadRig reads back exactly, with the unit of each value. `comment`: where the
 /// figures come from, one or more lines without '#'. Throws std::runtime_error naming the file.
 void WriteRig(const std::string& path, const Rig& rig, const std::string& name, const std::string& comment);

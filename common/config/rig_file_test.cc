@@ -5,8 +5,6 @@
 
 #include <filesystem>
 
-#include "common/config/config.h"
-
 namespace evit {
 namespace {
 

@@ -1,48 +1,114 @@
 #include "common/config/text_file.h"
 
+#include <google/protobuf/descriptor.h>
 #include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/message.h>
 #include <google/protobuf/text_format.h>
 
+#include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <optional>
 
-#include "common/config/config.h"
+#include "common/config/config_error.h"
+#include "common/config/field_rules.h"
+#include "common/config/parse_error.h"
 
 namespace evit {
 namespace {
 
-// Keeps the first complaint of the parser, with its place.
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::TextFormat;
+
+constexpr std::uintmax_t kLongest = 1 << 20;  // bytes; a longer file is something else
+
+std::string ReadFile(const std::string& path) {
+  std::error_code error;
+  std::ifstream file(path, std::ios::binary);
+  if (!file || !std::filesystem::is_regular_file(path, error)) {
+    throw ConfigError(path + ": cannot be read; give the path of a text protobuf file");
+  }
+  if (std::filesystem::file_size(path, error) > kLongest) {
+    throw ConfigError(path + ": is larger than 1 MB; give the path of a text protobuf file");
+  }
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 class FirstError : public google::protobuf::io::ErrorCollector {
  public:
-  void AddError(int line, int column, const std::string& message) override {
-    if (!text_.empty()) return;
-    text_ = std::to_string(line + 1) + ":" + std::to_string(column + 1) + ": " + message;
+  void AddError(int line, int column, const std::string& words) override {
+    if (!fault_) fault_ = {line, column, words};
   }
-  const std::string& text() const { return text_; }
+  const std::optional<ParseFault>& fault() const { return fault_; }
 
  private:
-  std::string text_;
+  std::optional<ParseFault> fault_;
 };
+
+// `k`: the element of a repeated field.
+SettingValue ValueOf(const Message& m, const FieldDescriptor* f, int k) {
+  const auto* r = m.GetReflection();
+  const bool one = !f->is_repeated();
+  switch (f->cpp_type()) {
+    case FieldDescriptor::CPPTYPE_BOOL:
+      return one ? r->GetBool(m, f) : r->GetRepeatedBool(m, f, k);
+    case FieldDescriptor::CPPTYPE_INT32:
+      return std::int64_t{one ? r->GetInt32(m, f) : r->GetRepeatedInt32(m, f, k)};
+    case FieldDescriptor::CPPTYPE_INT64:
+      return std::int64_t{one ? r->GetInt64(m, f) : r->GetRepeatedInt64(m, f, k)};
+    case FieldDescriptor::CPPTYPE_ENUM:
+      return std::int64_t{one ? r->GetEnumValue(m, f) : r->GetRepeatedEnumValue(m, f, k)};
+    case FieldDescriptor::CPPTYPE_DOUBLE:
+      return one ? r->GetDouble(m, f) : r->GetRepeatedDouble(m, f, k);
+    case FieldDescriptor::CPPTYPE_STRING:
+      return one ? r->GetString(m, f) : r->GetRepeatedString(m, f, k);
+    default:
+      return {};
+  }
+}
+
+void Flatten(const std::string& file, const std::string& parent, const Message& message,
+             TextFormat::ParseInfoTree* places, std::vector<Setting>* out) {
+  std::vector<const FieldDescriptor*> fields;
+  const auto* reflection = message.GetReflection();
+  reflection->ListFields(message, &fields);
+  for (const FieldDescriptor* field : fields) {
+    const int n = field->is_repeated() ? reflection->FieldSize(message, field) : 1;
+    for (int k = 0; k < n; ++k) {
+      const int index = field->is_repeated() ? k : -1;
+      const std::string path = parent + field->name();
+      out->push_back(
+          {path, ValueOf(message, field, k), field, file, places->GetLocation(field, index).line + 1});
+      if (field->cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE) continue;
+      const Message& part = field->is_repeated() ? reflection->GetRepeatedMessage(message, field, k)
+                                                 : reflection->GetMessage(message, field);
+      Flatten(file, path + ".", part, places->GetTreeForNested(field, index), out);
+    }
+  }
+}
 
 }  // namespace
 
-void ParseTextFile(const std::string& path, const std::string& schema, google::protobuf::Message* message) {
-  std::ifstream file(path);
-  if (!file) throw ConfigError(path + ": cannot be read; give the path of a text protobuf file");
-  std::stringstream text;
-  text << file.rdbuf();
+std::vector<Setting> ParseTextFile(const std::string& path, Message* message) {
+  const std::string text = ReadFile(path);
   FirstError errors;
-  google::protobuf::TextFormat::Parser parser;
+  TextFormat::ParseInfoTree places;
+  TextFormat::Parser parser;
   parser.RecordErrorsTo(&errors);
+  parser.WriteLocationsTo(&places);
   parser.AllowPartialMessage(true);  // missing keys are named below, all at once
-  if (!parser.ParseFromString(text.str(), message)) {
-    throw ConfigError(path + ":" + errors.text() + "; known keys and their units are in " + schema);
+  if (!parser.ParseFromString(text, message)) {
+    const ParseFault fault = errors.fault().value_or(ParseFault{0, 0, "cannot be read"});
+    throw ConfigError(path + ":" + Explain(message->GetDescriptor(), text, fault));
   }
   if (!message->IsInitialized()) {
     throw ConfigError(path + ": missing: " + message->InitializationErrorString() +
-                      "; every key must be there, see the commented files in config/");
+                      "; every one of these keys must be there, see the commented files in config/");
   }
+  std::vector<Setting> settings;
+  Flatten(path, "", *message, &places, &settings);
+  for (const Setting& setting : settings) CheckAllowed(setting);
+  return settings;
 }
 
 }  // namespace evit

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "common/config/setting.h"
 
 namespace google::protobuf {
 class Message;
@@ -8,9 +11,9 @@ class Message;
 
 namespace evit {
 
-/// Reads a text protobuf file. Throws ConfigError: not readable, unknown key or bad value (file, line,
-/// column), required keys that are missing, all at once. `schema`: where keys and units are described, for
-/// the remedy.
-void ParseTextFile(const std::string& path, const std::string& schema, google::protobuf::Message* message);
+/// Reads a text protobuf file; returns what it sets, in the schema's order, elements of repeated fields one
+/// by one. Throws ConfigError: not readable, unknown key or bad value (file, line, column), a value outside
+/// of what the schema's field options allow (file, line), required keys that are missing, all at once.
+std::vector<Setting> ParseTextFile(const std::string& path, google::protobuf::Message* message);
 
 }  // namespace evit

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
-#include "common/config/config.h"
+#include "common/config/rig_file.h"
+#include "common/config/settings_file.h"
 #include "services/frame_builder/frame_builder.h"
 
 namespace {
@@ -10,7 +11,8 @@ int Main(int argc, char** argv) {
   std::string rig, config;
   evit::ServiceOptions options;
   app.add_option("--rig", rig, "Calibration of camera and IMU (text protobuf)")->required();
-  app.add_option("--config", config, "Tracker settings (text protobuf)")->required();
+  app.add_option("--config", config,
+                 "Tracker settings (text protobuf; default: EVIT's, see evit config show)");
   evit::AddServiceOptions(&app, &options);
   try {
     app.parse(argc, argv);

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
-#include "common/config/config.h"
+#include "common/config/rig_file.h"
+#include "common/config/settings_file.h"
 #include "common/geometry/pose_text.h"
 #include "services/window_optimizer/photometric_optimizer.h"
 #include "services/window_optimizer/window_optimizer.h"
@@ -27,7 +28,8 @@ int Main(int argc, char** argv) {
   std::string rig, config, pose, checkpoint;
   evit::ServiceOptions options;
   app.add_option("--rig", rig, "Calibration of camera and IMU (text protobuf)")->required();
-  app.add_option("--config", config, "Tracker settings (text protobuf)")->required();
+  app.add_option("--config", config,
+                 "Tracker settings (text protobuf; default: EVIT's, see evit config show)");
   app.add_option("--initial-pose", pose, "Body in the map at the first keyframe: \"x y z qx qy qz qw\"")
       ->required();
   app.add_option("--checkpoint", checkpoint,

@@ -8,7 +8,6 @@
 
 #include "common/bus/codec.h"
 #include "common/bus/log_file.h"
-#include "common/config/config.h"
 #include "common/config/rig_file.h"
 #include "tests/helpers/sample_messages.h"
 #include "tools/calibration/recorded_motion.h"

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/config/config.h"
 #include "common/config/rig_file.h"
+#include "common/config/settings_file.h"
 #include "common/geometry/pose_text.h"
 #include "tools/calibration/calibration_report.h"
 #include "tools/calibration/recorded_motion.h"
@@ -31,9 +31,9 @@ std::string Track(CalibrateOptions* o) {
   job.initial_from = o->from;
   if (!o->seconds.empty()) job.seconds = ParseSeconds(o->seconds);
   if (job.config.empty()) job.config = DataFile("config/evt.textproto");
-  if (LoadTracker(job.config).method() != config::Tracker::EVT) {
+  if (LoadOptions(job.config).method != PipelineOptions::Method::kEvt) {
     throw std::runtime_error(job.config +
-                             ": method: EVT is wanted, as in config/evt.textproto: poses that used the IMU "
+                             ": evt { } is expected, as in config/evt.textproto: poses that used the IMU "
                              "know the extrinsics already");
   }
   if (job.out.empty()) job.out = o->out + ".evt";

@@ -15,6 +15,8 @@ void AddMapPhotometric(CLI::App* map);
 void AddEvalCommand(CLI::App* app);
 void AddCalibrateCommand(CLI::App* app);
 void AddRunCommand(CLI::App* app);
+/// show, check.
+void AddConfigCommand(CLI::App* app);
 void AddPaperCommand(CLI::App* app);
 void AddUpCommand(CLI::App* app);
 /// ps, start, stop, restart, logs.

@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "common/config/config.h"
+#include "common/config/rig_file.h"
 #include "tools/evit/data_file.h"
 #include "tools/evit/import_options.h"
 #include "tools/evit/options.h"

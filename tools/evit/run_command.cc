@@ -6,7 +6,6 @@
 
 #include "common/geometry/pose_text.h"
 #include "tools/evit/commands.h"
-#include "tools/evit/data_file.h"
 #include "tools/evit/options.h"
 #include "tools/run/run.h"
 
@@ -26,7 +25,8 @@ void AddRunCommand(CLI::App* app) {
   run->add_option("--photometric-map", o->job.photometric_map,
                   "For method EVPT: PLY with intensities (evit map photometric); --map may be left out then");
   run->add_option("--rig", o->job.rig, "Calibration, e.g. config/vector/rig.textproto")->required();
-  run->add_option("--config", o->job.config, "Tracker settings (default: config/tracker.textproto)");
+  run->add_option("--config", o->job.config,
+                  "Tracker settings, e.g. config/evt.textproto (default: EVIT's, see evit config show)");
   auto* pose =
       run->add_option("--initial-pose", o->pose, "Body in the map at the start: \"x y z qx qy qz qw\"");
   auto* from =
@@ -58,7 +58,6 @@ void AddRunCommand(CLI::App* app) {
     job.initial_from = o->from;
     if (job.truth.empty()) job.truth = o->from;
     if (!o->seconds.empty()) job.seconds = ParseSeconds(o->seconds);
-    if (job.config.empty()) job.config = DataFile("config/tracker.textproto");
     job.lossless = !o->realtime;
     if (job.lossless && job.loops > 1) throw std::runtime_error("--loops needs --realtime");
     job.command = CommandLineOfThis();

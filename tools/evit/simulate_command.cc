@@ -9,7 +9,7 @@
 #include <memory>
 #include <thread>
 
-#include "common/config/config.h"
+#include "common/config/rig_file.h"
 #include "tools/evit/data_file.h"
 #include "tools/simulation/builtin_motion.h"
 #include "tools/simulation/simulator.h"

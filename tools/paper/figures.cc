@@ -5,7 +5,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "common/config/config.h"
+#include "common/config/rig_file.h"
 #include "common/map/map_file.h"
 #include "tools/paper/motion_model_figure.h"
 #include "tools/paper/text_files.h"

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/bus/codec.h"
-#include "common/config/config.h"
+#include "common/config/rig_file.h"
 #include "tests/helpers/paper.h"
 #include "tests/helpers/sample_messages.h"
 #include "tools/paper/motion_model_figure.h"

@@ -116,7 +116,8 @@ std::string IndexText(const PaperPlan& plan, const PaperResults& results, const 
     out << "| " << m.id() << " | " << m.name() << " | " << m.frequency() << " | "
         << m.config().substr(m.config().rfind('/') + 1);
     if (m.has_fixed_rate_hz()) out << ", keyframes.fixed_rate_hz " << m.fixed_rate_hz();
-    if (m.has_motion_model()) out << ", window.motion_model " << m.motion_model();
+    if (m.has_motion_model())
+      out << ", evit.motion_model " << config::Evit::MotionModel_Name(m.motion_model());
     out << " |\n";
   }
   return out.str();

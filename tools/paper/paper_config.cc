@@ -1,13 +1,13 @@
 #include "tools/paper/paper_config.h"
 
-#include <google/protobuf/text_format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
 
-#include "common/config/config.h"
+#include "common/config/config_error.h"
+#include "common/config/settings_file.h"
+#include "common/config/settings_text.h"
 #include "common/config/text_file.h"
 
 namespace evit::paper {
@@ -38,41 +38,31 @@ void CheckMethods(const std::string& path, const Methods& methods, const std::st
   std::set<std::string> ids;
   for (const paper::Method& m : methods) {
     Require(IsFileName(m.id()), path,
-            field + ".id: \"" + m.id() + "\" is no file name: letters, digits, _ and - are wanted");
+            field + ".id: \"" + m.id() + "\" is no file name: use letters, digits, _ and -");
     Require(ids.insert(m.id()).second, path, field + ".id: \"" + m.id() + "\" is there twice");
-    Require(!m.has_fixed_rate_hz() || (m.fixed_rate_hz() >= 0 && m.fixed_rate_hz() <= 2000), path,
-            field + " " + m.id() + ": fixed_rate_hz: 0 to 2000 are wanted");
-    Require(!m.has_motion_model() || (m.motion_model() >= 0 && m.motion_model() <= 2), path,
-            field + " " + m.id() + ": motion_model: 0, 1 or 2 is wanted");
   }
 }
 
 void CheckSequence(const std::string& path, const paper::Sequence& s) {
   const std::string where = "sequence " + s.name() + ": ";
   Require(IsFileName(s.name()), path,
-          "sequence.name: \"" + s.name() + "\" is no file name: letters, digits, _ and - are wanted");
+          "sequence.name: \"" + s.name() + "\" is no file name: use letters, digits, _ and -");
   Require(s.has_begin_s() == s.has_end_s(), path,
-          where + "begin_s and end_s: either both are wanted or none (the whole sequence)");
+          where + "begin_s and end_s: give both, or none (the whole sequence)");
   Require(!s.has_begin_s() || (s.begin_s() >= 0 && s.end_s() > s.begin_s()), path,
-          where + "begin_s, end_s: 0 <= begin_s < end_s is wanted");
+          where + "begin_s, end_s: 0 <= begin_s < end_s is expected");
   Require(s.t_map_world_size() == 0 || s.t_map_world_size() == 16, path,
-          where + "T_map_world: 16 numbers are wanted (4x4, row-major), got " +
+          where + "T_map_world: 16 numbers are expected (4x4, row-major), got " +
               std::to_string(s.t_map_world_size()));
-  Require(s.simulated().recorded_begin_s() >= 0, path,
-          where + "simulated.recorded_begin_s: must not be negative");
 }
 
 }  // namespace
 
 paper::Paper LoadPaper(const std::string& path) {
   paper::Paper config;
-  ParseTextFile(path, "tools/paper/paper.proto", &config);
-  for (const double s : {config.simulated_s(), config.quick_s()}) {
-    Require(s >= 2 && s <= 600, path, "simulated_s, quick_s: 2 to 600 s are wanted");
-  }
-  Require(config.seeds() >= 1 && config.seeds() <= 99, path, "seeds: 1 to 99 are wanted");
+  ParseTextFile(path, &config);
   Require(config.method_size() > 0 && config.sequence_size() > 0, path,
-          "one method and one sequence at least are wanted");
+          "at least one method and one sequence are expected");
   config.set_rig(Beside(path, config.rig()));
   for (paper::Method& m : *config.mutable_method()) m.set_config(Beside(path, m.config()));
   for (paper::Method& m : *config.mutable_motion_model()) m.set_config(Beside(path, m.config()));
@@ -108,16 +98,18 @@ std::vector<paper::Method> AllMethods(const paper::Paper& config) {
 }
 
 bool IsPhotometric(const paper::Method& method) {
-  return config::Tracker::Method_Name(LoadTracker(method.config()).method()) == "EVPT";
+  return LoadOptions(method.config()).method == PipelineOptions::Method::kEvpt;
 }
 
 std::string TrackerText(const paper::Method& method) {
-  config::Tracker tracker = LoadTracker(method.config());
-  if (method.has_fixed_rate_hz()) tracker.mutable_keyframes()->set_fixed_rate_hz(method.fixed_rate_hz());
-  if (method.has_motion_model()) tracker.mutable_window()->set_motion_model(method.motion_model());
-  std::string text;
-  google::protobuf::TextFormat::PrintToString(tracker, &text);
-  return text;
+  PipelineOptions options = LoadOptions(method.config());
+  if (method.has_fixed_rate_hz()) options.keyframes.fixed_rate_hz = method.fixed_rate_hz();
+  if (method.has_motion_model()) {
+    Require(options.method == PipelineOptions::Method::kEvit, method.config(),
+            "method " + method.id() + " has a motion_model: that is for settings of evit { }");
+    options.window.motion_model = static_cast<WindowOptions::MotionModel>(method.motion_model());
+  }
+  return SettingsText(options);
 }
 
 }  // namespace evit::paper

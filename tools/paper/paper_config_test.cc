@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/config/config.h"
+#include "common/config/config_error.h"
+#include "common/config/settings_file.h"
+#include "common/config/settings_text.h"
 #include "tests/helpers/paper.h"
 #include "tools/paper/text_files.h"
 
@@ -45,12 +47,13 @@ TEST_F(PaperConfig, ShippedOneHasThePapersSequencesAndMethods) {
 TEST_F(PaperConfig, ErrorsNameFileAndKey) {
   ExpectError("seeds: 3", "seedz: 3", "seedz");
   ExpectError("seeds: 3", "", "seeds");
-  ExpectError("seeds: 3", "seeds: 0", "seeds: 1 to 99");
+  ExpectError("seeds: 3", "seeds: 0", "seeds: 0 is out of range; 1 to 99");
   ExpectError("simulated_s: 10", "simulated_s: 1", "simulated_s");
   ExpectError("id: \"evt100\"", "id: \"evt300\"", "\"evt300\" is there twice");
   ExpectError("id: \"evt100\"", "id: \"evt/100\"", "no file name");
   ExpectError("fixed_rate_hz: 100", "fixed_rate_hz: 5000", "fixed_rate_hz");
-  ExpectError("motion_model: 1", "motion_model: 3", "motion_model: 0, 1 or 2");
+  ExpectError("motion_model: CONSTANT_VELOCITY", "motion_model: 3",
+              "PREVIOUS_POSE, CONSTANT_VELOCITY or IMU");
   ExpectError("name: \"sofa_normal\"", "name: \"robot_normal\"", "sequence robot_normal: is there twice");
   ExpectError("figure_sequence: \"sofa_fast\"", "figure_sequence: \"nowhere\"", "nowhere");
   ExpectError("scene: \"sofa\"", "scene: \"sofa\" begin_s: 3", "begin_s and end_s");
@@ -65,16 +68,20 @@ TEST_F(PaperConfig, MethodsChangeOnlyWhatTheySay) {
   method.set_config(EVIT_SOURCE_DIR "/config/tracker.textproto");
   const std::string plain = TrackerText(method);
   method.set_fixed_rate_hz(30);
-  method.set_motion_model(1);
-  const std::string path = folder_.Write("changed.textproto", TrackerText(method));
-  const config::Tracker changed = LoadTracker(path);
-  EXPECT_EQ(changed.keyframes().fixed_rate_hz(), 30);
-  EXPECT_EQ(changed.window().motion_model(), 1);
-  config::Tracker back = changed;
-  back.mutable_keyframes()->set_fixed_rate_hz(0);
-  back.mutable_window()->set_motion_model(2);
-  EXPECT_EQ(back.SerializeAsString(), LoadTracker(method.config()).SerializeAsString());
-  EXPECT_NE(plain, TrackerText(method));
+  method.set_motion_model(config::Evit::CONSTANT_VELOCITY);
+  PipelineOptions changed = LoadOptions(folder_.Write("changed.textproto", TrackerText(method)));
+  EXPECT_EQ(changed.keyframes.fixed_rate_hz, 30);
+  EXPECT_EQ(changed.window.motion_model, WindowOptions::MotionModel::kConstantVelocity);
+  changed.keyframes.fixed_rate_hz = 0;
+  changed.window.motion_model = WindowOptions::MotionModel::kImu;
+  EXPECT_EQ(SettingsText(changed), plain);
+}
+
+TEST_F(PaperConfig, MotionModelsAreForEvit) {
+  paper::Method method;
+  method.set_config(EVIT_SOURCE_DIR "/config/evt.textproto");
+  method.set_motion_model(config::Evit::IMU);
+  EXPECT_THROW(TrackerText(method), ConfigError);
 }
 
 }  // namespace

@@ -53,9 +53,11 @@ std::vector<procman::ProcmanCommand> Commands(const RunJob& job, const std::stri
   if (!job.map.empty()) map_server.insert(map_server.end(), {"--map", job.map});
   if (!job.photometric_map.empty())
     map_server.insert(map_server.end(), {"--photometric-map", job.photometric_map});
-  std::vector<std::string> optimizer{"window_optimizer", "--rig",          job.rig,        "--config",
-                                     job.config,         "--initial-pose", PoseText(start)};
-  std::vector<std::string> builder{"frame_builder", "--rig", job.rig, "--config", job.config};
+  std::vector<std::string> optimizer{"window_optimizer", "--rig", job.rig, "--initial-pose", PoseText(start)};
+  std::vector<std::string> builder{"frame_builder", "--rig", job.rig};
+  if (!job.config.empty()) {
+    for (auto* words : {&optimizer, &builder}) words->insert(words->end(), {"--config", job.config});
+  }
   std::vector<std::string> replay{"log_replay", "--log", job.log};
   if (job.seconds) {
     const auto [begin, end] = *job.seconds;

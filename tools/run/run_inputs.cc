@@ -10,7 +10,9 @@
 
 #include "common/bus/codec.h"
 #include "common/bus/log_file.h"
-#include "common/config/config.h"
+#include "common/config/rig_file.h"
+#include "common/config/settings_file.h"
+#include "common/config/settings_text.h"
 #include "common/evaluation/decimal_time.h"
 #include "common/map/map_file.h"
 #include "common/map/photometric_map.h"
@@ -92,13 +94,15 @@ SE3 StartPose(const RunJob& job, Utime begin) {
 RunInputs PrepareRun(const RunJob& job) {
   RunInputs inputs;
   LoadRig(job.rig);
-  const bool photometric = LoadTracker(job.config).method() == config::Tracker::EVPT;
+  const PipelineOptions options = LoadOptions(job.config);
+  inputs.settings = SettingsText(options);
+  const bool photometric = options.method == PipelineOptions::Method::kEvpt;
+  const std::string settings = job.config.empty() ? "the default settings" : job.config;
   if (photometric && job.photometric_map.empty()) {
-    throw std::runtime_error(job.config +
-                             ": method EVPT needs a photometric map: give --photometric-map FILE");
+    throw std::runtime_error(settings + ": method EVPT needs a photometric map: give --photometric-map FILE");
   }
   if (!photometric && !job.photometric_map.empty()) {
-    throw std::runtime_error(job.config +
+    throw std::runtime_error(settings +
                              ": only method EVPT uses a photometric map: leave --photometric-map out, or "
                              "give --config config/evpt.textproto");
   }

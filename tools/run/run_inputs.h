@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "common/evaluation/trajectory.h"
 #include "tools/run/run.h"
@@ -11,6 +12,7 @@ namespace evit::run {
 struct RunInputs {
   Utime begin = 0, end = 0;   // sensor time of the part that will be played
   std::int64_t n_events = 0;  // in that part
+  std::string settings;       // every value in force, a settings file
   SE3 start;                  // T_map_body at `begin`
   Trajectory truth;           // of that part; empty: none
 };

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "tools/pictures/consistency_plot.h"
 #include "tools/pictures/run_plot.h"
@@ -14,11 +12,6 @@
 
 namespace evit::run {
 namespace {
-
-std::string ReadText(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 // Only what was played counts: an interrupted run has seen a part.
 double PlayedSeconds(const RunInputs& inputs, const Recorder& recorder, const RunOutcome& outcome) {
@@ -34,7 +27,7 @@ void Describe(const RunJob& job, const RunInputs& inputs, report::Report* report
   report->set_rig(job.rig);
   report->set_map(job.map.empty() ? job.photometric_map : job.map);
   report->set_log(job.log);
-  report->set_config(ReadText(job.config));
+  report->set_config(inputs.settings);
   report->set_lossless(job.lossless);
   report->set_begin_utime(static_cast<double>(inputs.begin));
   report->set_end_utime(static_cast<double>(inputs.end));

@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "common/config/config.h"
+#include "common/config/rig_file.h"
 #include "tools/simulation/builtin_motion.h"
 #include "tools/simulation/room.h"
 #include "tools/simulation/trajectory_source.h"

@@ -9,7 +9,7 @@
 #include <iomanip>
 #include <random>
 
-#include "common/config/config.h"
+#include "common/config/rig_file.h"
 #include "common/evaluation/decimal_time.h"
 #include "tests/helpers/imported_log.h"
 

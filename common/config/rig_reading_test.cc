@@ -1,0 +1,78 @@
+// Rig files load; every fault in one is named with file, line, field and remedy.
+#include <cmath>
+
+#include "common/config/rig_file.h"
+#include "tests/helpers/config_files.h"
+
+namespace evit {
+namespace {
+
+using test::Edited;
+
+const std::string kRig = EVIT_SOURCE_DIR "/config/vector/rig.textproto";
+
+class RigReading : public test::ConfigFilesTest {
+ protected:
+  // Expects that the shipped rig is refused with one text in place of another.
+  void ExpectEditRefused(const std::string& from, const std::string& to, const std::string& place,
+                         const std::vector<std::string>& words) {
+    ExpectRefused(LoadRig, Write("rig.textproto", Edited(test::ReadText(kRig), from, to)), place, words);
+  }
+};
+
+TEST_F(RigReading, ShippedFilesLoad) {
+  EXPECT_NO_THROW(LoadRig(kRig));
+  EXPECT_NO_THROW(LoadRig(EVIT_SOURCE_DIR "/logs/rig.textproto"));
+}
+
+TEST_F(RigReading, VectorRigHasTheFiguresOfVectorsCalibration) {
+  const Rig rig = LoadRig(kRig);
+  EXPECT_EQ(rig.camera.width, 640);
+  EXPECT_DOUBLE_EQ(rig.camera.fx, 327.32749);
+  EXPECT_DOUBLE_EQ(rig.camera.distortion[1], 0.041966);
+  EXPECT_DOUBLE_EQ(rig.imu_noise.accel_random_walk, 5.6386016813618435e-05);
+  EXPECT_DOUBLE_EQ(rig.imu_rate_hz, 200);
+  // T_marker_body * T_body_camera is the camera in the marker's frame. The lever arms are those of a
+  // hand-held rig.
+  EXPECT_LT((rig.T_marker_body * rig.T_body_camera).p.norm(), 0.3);
+  // Camera forward (z) is the IMU's x axis within two degrees.
+  EXPECT_GT((rig.T_body_camera.q * Eigen::Vector3d::UnitZ()).x(), std::cos(2 * EIGEN_PI / 180));
+}
+
+TEST_F(RigReading, UnknownAndMissingKeysAreNamed) {
+  ExpectEditRefused("gyro_random_walk", "gyro_randomwalk", ":21:3",
+                    {"imu.gyro_randomwalk", "did you mean imu.gyro_random_walk?"});
+  ExpectEditRefused("gravity: 9.81", "", "", {"missing", "gravity"});
+  ExpectEditRefused("  fx: 327.32749", "", "", {"missing", "camera.fx"});
+}
+
+TEST_F(RigReading, WrongTypesAreNamedWithWhatIsAllowed) {
+  ExpectEditRefused("width: 640", "width: \"640\"", ":7:3", {"camera.width", "integer", "16 to 8192 px"});
+}
+
+TEST_F(RigReading, ValuesOutOfRangeAreNamedWithTheirLine) {
+  ExpectEditRefused("plumb_bob", "fisheye", ":6", {"camera.model", "fisheye", "equidistant"});
+  ExpectEditRefused("fx: 327.32749", "fx: -1", ":9", {"camera.fx", "-1", "above 0 px"});
+  ExpectEditRefused("fx: 327.32749", "fx: nan", ":9", {"camera.fx"});
+  ExpectEditRefused(", -0.001031, 0.0]", "]", ":13", {"camera.distortion", "4 or 5"});
+  ExpectEditRefused("gravity: 9.81", "gravity: 981", "", {"gravity", "981", "above 9, below 10.5 m/s^2"});
+}
+
+TEST_F(RigReading, TransformationsMustBeRigid) {
+  ExpectEditRefused("0.999698612512", "0.9", "", {"T_body_camera.m", "not a rotation"});
+  ExpectEditRefused("  m: [0, 0, 0, 1]\n}", "}", "", {"T_body_camera.m", "16 numbers", "12"});
+}
+
+// A left-handed or transposed rotation is the classic mistake of a hand-copied calibration.
+TEST_F(RigReading, AMirroredRotationIsRefused) {
+  ExpectEditRefused("[0.0188022409695, -0.999589203474, 0.0216309970154,",
+                    "[-0.0188022409695, 0.999589203474, -0.0216309970154,", "",
+                    {"T_body_camera.m", "right-handed"});
+}
+
+TEST_F(RigReading, AFileThatIsNotThereIsNamed) {
+  ExpectRefused(LoadRig, "/nonexistent/rig.textproto", "", {"cannot be read"});
+}
+
+}  // namespace
+}  // namespace evit
