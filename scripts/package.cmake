@@ -4,8 +4,8 @@ set(CPACK_PACKAGE_NAME evit)
 set(CPACK_PACKAGE_CONTACT "EVIT maintainers <maintainers@users.noreply.h-seed-355f17fe.example>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "event-inertial 6-DoF tracking in known semi-dense maps")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "An event camera and an IMU, tracked against a semi-dense point cloud by four services over LCM.
- The package holds the evit command, the services, a systemd unit, the message types for C++, Java and
- Python, and the algorithms as a CMake package.")
+The package holds the evit command, the services, a systemd unit, the message types for C++, Java and
+Python, and the algorithms as a CMake package.")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
