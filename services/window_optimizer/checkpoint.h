@@ -8,7 +8,7 @@
 
 namespace evit {
 
-/// What a restarted optimiser needs to go on: the newest keyframe and what was known at it.
+/// What a restarted optimiser needs to continue: the newest keyframe and what was known at it.
 struct Checkpoint {
   Utime t = 0;                                         // us: of the keyframe
   std::int64_t keyframe_epoch = 0, keyframe_seq = -1;  // which one it was

@@ -48,7 +48,7 @@ TEST_F(CheckpointTest, ComesBackBitForBit) {
   EXPECT_EQ(back->information, Example().information);
 }
 
-TEST_F(CheckpointTest, NonsenseIsNotTaken) {
+TEST_F(CheckpointTest, InvalidStatesAreNotLoaded) {
   Checkpoint bad = Example();
   bad.state.velocity.x() = std::nan("");
   CheckpointFile(path_).Store(bad);
@@ -59,7 +59,7 @@ TEST_F(CheckpointTest, NonsenseIsNotTaken) {
   EXPECT_FALSE(CheckpointFile(path_).Load());
 }
 
-TEST_F(CheckpointTest, GoesOnAtConstantVelocityAndRate) {
+TEST_F(CheckpointTest, PredictsAtConstantVelocityAndRate) {
   const BodyState later = Example().After(200'000);
   EXPECT_LT((later.T_map_body.p - Example().state.T_map_body.p - Eigen::Vector3d(0.2, -0.1, 0.05)).norm(),
             1e-12);

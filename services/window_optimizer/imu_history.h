@@ -11,7 +11,7 @@ namespace evit {
 /// IMU-rate pose.
 class ImuHistory {
  public:
-  /// Samples that are not newer than the last one are refused (false).
+  /// Samples that are not newer than the last one are left out (false).
   bool Add(const ImuSample& sample);
   void Clear() { samples_.clear(); }
 

@@ -38,7 +38,7 @@ TEST(ImuHistory, SaysWhatItDoesNotCover) {
   EXPECT_TRUE(history.Between(15'000, 15'000).empty());
 }
 
-TEST(ImuHistory, ClockThatJumpsBeginsAnew) {
+TEST(ImuHistory, AClockThatJumpsClearsIt) {
   ImuHistory history;
   for (Utime t = 10'000'000; t <= 10'100'000; t += 5'000) history.Add(At(t));
   EXPECT_FALSE(history.Add(At(9'500'000)));
@@ -50,7 +50,7 @@ TEST(ImuHistory, ClockThatJumpsBeginsAnew) {
   EXPECT_TRUE(history.Between(5'005'000, 3'600'000'000).empty());
 }
 
-TEST(ImuHistory, RefusesWhatIsNotNewer) {
+TEST(ImuHistory, LeavesOutWhatIsNotNewer) {
   ImuHistory history;
   EXPECT_TRUE(history.Add(At(10)));
   EXPECT_FALSE(history.Add(At(10)));

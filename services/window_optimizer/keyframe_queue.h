@@ -31,9 +31,9 @@ class KeyframeQueue {
 
   struct Options {
     bool lossless = false;
-    std::size_t capacity = 4;        // real time
-    std::size_t burst_capacity = 4;  // the same while a burst is worked off, see OldestIsOfABurst()
-    bool merge_imu = false;          // a dropped keyframe leaves its IMU samples to the next one
+    std::size_t capacity = 4;         // real time
+    std::size_t burst_capacity = 32;  // the same while frames of a burst wait (bootstrapping, a restart)
+    bool merge_imu = true;            // a dropped keyframe leaves its IMU samples to the next one
   };
   /// `status` must outlive this.
   KeyframeQueue(StatusReporter* status, const Options& options);

@@ -10,7 +10,7 @@ namespace {
 
 using Admission = KeyframeQueue::Admission;
 
-constexpr KeyframeQueue::Options kLossless{true, 4, 4, false};
+constexpr KeyframeQueue::Options kLossless{true};
 constexpr KeyframeQueue::Options kRealTime{false, 4, 8, true};
 
 class KeyframeQueueTest : public ::testing::Test {

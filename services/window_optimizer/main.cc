@@ -32,9 +32,10 @@ int Main(int argc, char** argv) {
                  "Tracker settings (text protobuf; default: EVIT's, see evit config show)");
   app.add_option("--initial-pose", pose, "Body in the map at the first keyframe: \"x y z qx qy qz qw\"")
       ->required();
-  app.add_option("--checkpoint", checkpoint,
-                 "File with the newest state, to continue from after a restart (real time; delete it to start "
-                 "from the initial pose)");
+  app.add_option(
+      "--checkpoint", checkpoint,
+      "File with the newest state, to continue from after a restart (real time; delete it to start "
+      "from the initial pose)");
   evit::AddServiceOptions(&app, &options);
   try {
     app.parse(argc, argv);

@@ -14,12 +14,7 @@ namespace {
 // Real time: then the tracker continues with the view at hand.
 constexpr RequestClient<MapViewRequest>::Patience kPatience{std::chrono::milliseconds(50)};
 
-KeyframeQueue::Options QueueOptions(bool lossless) {
-  KeyframeQueue::Options options;
-  options.lossless = lossless;
-  options.capacity = options.burst_capacity = 2;
-  return options;
-}
+constexpr std::size_t kMaxQueue = 2;  // keyframes waiting, real time
 
 PhotometricFrame FrameOf(const keyframe_t& m) {
   PhotometricFrame f;
@@ -39,7 +34,7 @@ PhotometricOptimizer::PhotometricOptimizer(Bus* bus, const Channels& channels, c
     : lossless_(settings.lossless),
       status_(bus, channels, "window_optimizer", NewEpoch()),
       keyframe_inbox_(&status_, keyframe_t::EVENT_COUNT, settings.rig.camera),
-      queue_(&status_, QueueOptions(settings.lossless)),
+      queue_(&status_, {settings.lossless, kMaxQueue, kMaxQueue, false}),
       hints_(&status_),
       map_(bus, channels, &status_, kPatience, Clock::now()),
       publisher_(bus, channels, &status_),
@@ -67,16 +62,9 @@ void PhotometricOptimizer::OnView(const std::uint8_t* data, std::size_t size) {
 void PhotometricOptimizer::OnKeyframe(const std::uint8_t* data, std::size_t size) {
   std::optional<keyframe_t> keyframe = keyframe_inbox_.Decode(data, size);
   if (!keyframe) return;
-  switch (queue_.Admit(std::move(*keyframe), Clock::now())) {
-    case KeyframeQueue::Admission::kQueued:
-      ProcessNext();
-      break;
-    case KeyframeQueue::Admission::kOld:
-      publisher_.PublishModeAgain();
-      break;
-    case KeyframeQueue::Admission::kOutOfOrder:
-      break;
-  }
+  const KeyframeQueue::Admission admission = queue_.Admit(std::move(*keyframe), Clock::now());
+  if (admission == KeyframeQueue::Admission::kQueued) ProcessNext();
+  if (admission == KeyframeQueue::Admission::kOld) publisher_.PublishModeAgain();
 }
 
 void PhotometricOptimizer::OnPoseHint(const std::uint8_t* data, std::size_t size) {

@@ -154,7 +154,7 @@ TEST_F(PhotometricOptimizerTest, RealTimeKeepsTheNewestKeyframes) {
   EXPECT_EQ(Counter("KEYFRAME.dropped"), 4);
 }
 
-TEST_F(PhotometricOptimizerTest, AHintStartsItAnew) {
+TEST_F(PhotometricOptimizerTest, AHintRestartsIt) {
   Start(true);
   body_pose_t hint{};
   const SE3 there = Truth(1'000'000).Plus((Vector6d() << 0.5, 0, 0, 0, 0, 0).finished());
@@ -198,7 +198,7 @@ TEST_F(PhotometricOptimizerTest, WrongKeyframesAndRubbishAreCountedAndSurvived) 
   EXPECT_EQ(Counter("POSE_HINT.invalid"), 1);
 }
 
-TEST_F(PhotometricOptimizerTest, AnotherCamerasKeyframesAreRefused) {
+TEST_F(PhotometricOptimizerTest, AnotherCamerasKeyframesAreTurnedAway) {
   Start(true);
   keyframe_t small = Keyframe(1'000'000);
   small.width = small.height = 16;

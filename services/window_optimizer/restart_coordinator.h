@@ -7,8 +7,8 @@
 
 #include "evit/keyframe_t.hpp"
 #include "evit/tracker_mode_t.hpp"
-#include "services/window_optimizer/catch_up.h"
 #include "services/window_optimizer/checkpoint.h"
+#include "services/window_optimizer/keyframe_catch_up.h"
 
 namespace evit {
 
@@ -32,7 +32,7 @@ class RestartCoordinator {
 
   /// While collecting.
   void Collect(keyframe_t keyframe, Clock::time_point now);
-  KeyframeCatchUp::Verdict Progress(Clock::time_point now) const { return catch_up_->Look(now); }
+  KeyframeCatchUp::Progress ProgressAt(Clock::time_point now) const { return catch_up_->ProgressAt(now); }
   bool AnnouncementDue(Clock::time_point now) const { return now - announced_ > kAnnounceAgain; }
   /// TRACKER_MODE, which tells frame_builder the last keyframe that was processed, as the answer to it did:
   /// it sends those since again.

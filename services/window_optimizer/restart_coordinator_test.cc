@@ -9,7 +9,7 @@ namespace evit {
 namespace {
 
 using std::chrono::milliseconds;
-using Verdict = KeyframeCatchUp::Verdict;
+using Progress = KeyframeCatchUp::Progress;
 
 constexpr Utime kThen = 5'000'000;
 
@@ -83,9 +83,9 @@ TEST_F(RestartCoordinatorTest, CollectsTheKeyframesSinceTheCheckpoint) {
   RestartCoordinator restart(file_);
   ASSERT_TRUE(restart.collecting());
   restart.Collect(Keyframe(12), now_);
-  EXPECT_EQ(restart.Progress(now_), Verdict::kWaiting);
+  EXPECT_EQ(restart.ProgressAt(now_), Progress::kWaiting);
   restart.Collect(Keyframe(11), now_);
-  EXPECT_EQ(restart.Progress(now_), Verdict::kWhole);
+  EXPECT_EQ(restart.ProgressAt(now_), Progress::kWhole);
   const std::vector<keyframe_t> keyframes = restart.TakeKeyframes();
   ASSERT_EQ(keyframes.size(), 2U);
   EXPECT_EQ(keyframes[0].seq, 11);
@@ -99,7 +99,7 @@ TEST_F(RestartCoordinatorTest, AnotherFrameBuilderHasNoneOfThem) {
   LeaveCheckpoint();
   RestartCoordinator restart(file_);
   restart.Collect(Keyframe(0, 4), now_);
-  EXPECT_EQ(restart.Progress(now_), Verdict::kHopeless);
+  EXPECT_EQ(restart.ProgressAt(now_), Progress::kHopeless);
 }
 
 TEST_F(RestartCoordinatorTest, PredictsWhereTheBodyIsSoonAfter) {

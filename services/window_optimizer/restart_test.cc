@@ -4,7 +4,7 @@
 namespace evit::test {
 namespace {
 
-TEST_F(WindowOptimizerTest, RestartedItGoesOnWithoutMissingAKeyframe) {
+TEST_F(WindowOptimizerTest, RestartedItContinuesWithoutMissingAKeyframe) {
   WithCheckpoint();
   Start(false);
   TrackForAWhile();
@@ -57,7 +57,7 @@ TEST_F(WindowOptimizerTest, RestartedWithoutThoseKeyframesItLooksWhereTheBodyMus
   EXPECT_EQ(Counter("checkpoint.used"), 1);
 }
 
-TEST_F(WindowOptimizerTest, RestartedWhileBootstrappingItGoesOnToo) {
+TEST_F(WindowOptimizerTest, RestartedWhileBootstrappingItContinuesToo) {
   WithCheckpoint();
   Start(false);
   for (int k = 0; k < 5; ++k) {  // localises them, but does not track yet

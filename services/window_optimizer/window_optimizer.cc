@@ -16,22 +16,13 @@ namespace {
 constexpr RequestClient<MapPointsRequest>::Patience kPatience{std::chrono::milliseconds(20),
                                                               std::chrono::milliseconds(60)};
 
-KeyframeQueue::Options QueueOptions(bool lossless) {
-  KeyframeQueue::Options options;
-  options.lossless = lossless;
-  options.capacity = 4;
-  options.burst_capacity = 32;
-  options.merge_imu = true;
-  return options;
-}
-
 }  // namespace
 
 WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Settings& settings)
     : settings_(settings),
       status_(bus, channels, "window_optimizer", NewEpoch()),
       keyframe_inbox_(&status_, keyframe_t::TIME_SURFACE, settings.rig.camera),
-      queue_(&status_, QueueOptions(settings.lossless)),
+      queue_(&status_, {settings.lossless}),
       imu_(&status_),
       imu_rate_pose_(settings.rig.gravity),
       hints_(&status_),
@@ -62,16 +53,9 @@ void WindowOptimizer::OnKeyframe(const std::uint8_t* data, std::size_t size) {
     CatchUp();
     return;
   }
-  switch (queue_.Admit(std::move(*keyframe), Clock::now())) {
-    case KeyframeQueue::Admission::kQueued:
-      ProcessQueue();
-      break;
-    case KeyframeQueue::Admission::kOld:
-      publisher_.PublishModeAgain();
-      break;
-    case KeyframeQueue::Admission::kOutOfOrder:
-      break;
-  }
+  const KeyframeQueue::Admission admission = queue_.Admit(std::move(*keyframe), Clock::now());
+  if (admission == KeyframeQueue::Admission::kQueued) ProcessQueue();
+  if (admission == KeyframeQueue::Admission::kOld) publisher_.PublishModeAgain();
 }
 
 void WindowOptimizer::OnMapPoints(const std::uint8_t* data, std::size_t size) {
@@ -209,13 +193,13 @@ void WindowOptimizer::UseHint() {
 // Nothing is in work before all keyframes since the checkpoint are here.
 void WindowOptimizer::CatchUp() {
   const auto now = Clock::now();
-  const KeyframeCatchUp::Verdict progress = restart_.Progress(now);
-  if (progress == KeyframeCatchUp::Verdict::kWaiting) {
+  const KeyframeCatchUp::Progress progress = restart_.ProgressAt(now);
+  if (progress == KeyframeCatchUp::Progress::kWaiting) {
     if (restart_.AnnouncementDue(now)) publisher_.PublishAnnouncement(restart_.Announce(now));
     return;
   }
   std::vector<keyframe_t> keyframes = restart_.TakeKeyframes();
-  if (progress == KeyframeCatchUp::Verdict::kWhole) {
+  if (progress == KeyframeCatchUp::Progress::kWhole) {
     const Checkpoint& checkpoint = *restart_.checkpoint();
     if (checkpoint.tracking())
       worker_.at_rest()->Resume(checkpoint.t, checkpoint.state, checkpoint.information);

@@ -35,7 +35,7 @@ TEST_F(WindowOptimizerTest, LosslessWaitsForTheMapServer) {
     Pump();
   }
   EXPECT_TRUE(modes_.empty());
-  map_server_up_ = true;  // comes up late: the query is sent again and everything goes on
+  map_server_up_ = true;  // comes up late: the query is sent again and everything continues
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(10);
   while (modes_.size() < 5 && std::chrono::steady_clock::now() < give_up) Pump();
   EXPECT_EQ(modes_.size(), 5U);

@@ -22,12 +22,12 @@ class KeyframeCatchUp {
 
   void Add(keyframe_t message, Clock::time_point now);
 
-  enum class Verdict {
+  enum class Progress {
     kWaiting,  // for more
     kWhole,    // Take() gives every keyframe since
     kHopeless  // frame_builder is another one, or does not have them any more
   };
-  Verdict Look(Clock::time_point now) const;
+  Progress ProgressAt(Clock::time_point now) const;
 
   /// Those after the last one processed, in order.
   std::vector<keyframe_t> Take();

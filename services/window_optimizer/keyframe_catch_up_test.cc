@@ -1,11 +1,11 @@
-#include "services/window_optimizer/catch_up.h"
+#include "services/window_optimizer/keyframe_catch_up.h"
 
 #include <gtest/gtest.h>
 
 namespace evit {
 namespace {
 
-using Verdict = KeyframeCatchUp::Verdict;
+using Progress = KeyframeCatchUp::Progress;
 
 class CatchUpTest : public ::testing::Test {
  protected:
@@ -25,53 +25,53 @@ class CatchUpTest : public ::testing::Test {
 };
 
 TEST_F(CatchUpTest, WaitsUntilThereIsNoHole) {
-  EXPECT_EQ(catch_up_.Look(now_), Verdict::kWaiting);
+  EXPECT_EQ(catch_up_.ProgressAt(now_), Progress::kWaiting);
   Add(14);  // live
   Add(9);   // before the restart
   Add(11);
   Add(13);
-  EXPECT_EQ(catch_up_.Look(now_), Verdict::kWaiting);
+  EXPECT_EQ(catch_up_.ProgressAt(now_), Progress::kWaiting);
   Add(13);
   Add(12);
-  EXPECT_EQ(catch_up_.Look(now_), Verdict::kWhole);
+  EXPECT_EQ(catch_up_.ProgressAt(now_), Progress::kWhole);
   EXPECT_EQ(Taken(), (std::vector<std::int64_t>{11, 12, 13, 14}));
 }
 
 TEST_F(CatchUpTest, NothingWasMissed) {
   Add(11);
-  EXPECT_EQ(catch_up_.Look(now_), Verdict::kWhole);
+  EXPECT_EQ(catch_up_.ProgressAt(now_), Progress::kWhole);
 }
 
 TEST_F(CatchUpTest, GivesUpAfterAWhile) {
   Add(14);
-  EXPECT_EQ(catch_up_.Look(now_ + KeyframeCatchUp::kPatience), Verdict::kWaiting);
-  EXPECT_EQ(catch_up_.Look(now_ + 2 * KeyframeCatchUp::kPatience), Verdict::kHopeless);
+  EXPECT_EQ(catch_up_.ProgressAt(now_ + KeyframeCatchUp::kPatience), Progress::kWaiting);
+  EXPECT_EQ(catch_up_.ProgressAt(now_ + 2 * KeyframeCatchUp::kPatience), Progress::kHopeless);
   EXPECT_EQ(Taken(), (std::vector<std::int64_t>{14}));
 }
 
-TEST_F(CatchUpTest, GivesUpTooWhereTheFirstOnesAreGoneAndTheOthersComeAgainAndAgain) {
+TEST_F(CatchUpTest, GivesUpWhereTheFirstOnesAreGoneThoughOthersComeAgain) {
   Add(15);
   for (int k = 0; k < 6; ++k) {  // 11 is not held any more
     for (std::int64_t seq = 12; seq <= 15; ++seq) Add(seq);
     now_ += KeyframeCatchUp::kPatience / 4;
   }
-  EXPECT_EQ(catch_up_.Look(now_), Verdict::kHopeless);
+  EXPECT_EQ(catch_up_.ProgressAt(now_), Progress::kHopeless);
 }
 
 TEST_F(CatchUpTest, WaitsAsLongAsMissingOnesKeepComing) {
   Add(15);
   for (std::int64_t seq = 11; seq < 15; ++seq) {
     now_ += KeyframeCatchUp::kPatience * 3 / 4;
-    EXPECT_EQ(catch_up_.Look(now_), Verdict::kWaiting) << seq;
+    EXPECT_EQ(catch_up_.ProgressAt(now_), Progress::kWaiting) << seq;
     Add(seq);
   }
-  EXPECT_EQ(catch_up_.Look(now_), Verdict::kWhole);
+  EXPECT_EQ(catch_up_.ProgressAt(now_), Progress::kWhole);
 }
 
 TEST_F(CatchUpTest, AnotherFrameBuilderHasNoneOfThem) {
   Add(11);
   Add(0, 4);
-  EXPECT_EQ(catch_up_.Look(now_), Verdict::kHopeless);
+  EXPECT_EQ(catch_up_.ProgressAt(now_), Progress::kHopeless);
   EXPECT_EQ(Taken(), (std::vector<std::int64_t>{0}));
 }
 

@@ -1,4 +1,4 @@
-#include "services/window_optimizer/catch_up.h"
+#include "services/window_optimizer/keyframe_catch_up.h"
 
 #include <utility>
 
@@ -19,12 +19,12 @@ void KeyframeCatchUp::Add(keyframe_t message, Clock::time_point now) {
   if (held_.emplace(message.seq, std::move(message)).second && fills_a_hole) moved_ = now;
 }
 
-KeyframeCatchUp::Verdict KeyframeCatchUp::Look(Clock::time_point now) const {
-  if (other_epoch_) return Verdict::kHopeless;
-  if (held_.empty()) return Verdict::kWaiting;
-  const auto wanted = held_.rbegin()->first - seq_;
-  if (static_cast<std::int64_t>(held_.size()) == wanted) return Verdict::kWhole;
-  return now - moved_ > kPatience ? Verdict::kHopeless : Verdict::kWaiting;
+KeyframeCatchUp::Progress KeyframeCatchUp::ProgressAt(Clock::time_point now) const {
+  if (other_epoch_) return Progress::kHopeless;
+  if (held_.empty()) return Progress::kWaiting;
+  const auto expected = held_.rbegin()->first - seq_;
+  if (static_cast<std::int64_t>(held_.size()) == expected) return Progress::kWhole;
+  return now - moved_ > kPatience ? Progress::kHopeless : Progress::kWaiting;
 }
 
 std::vector<keyframe_t> KeyframeCatchUp::Take() {
