@@ -3,9 +3,9 @@
 
 #include "bench/counters.h"
 #include "bench/moving_edges.h"
-#include "bench/reference_surface.h"
 #include "common/bus/codec.h"
 #include "common/events/hot_pixels.h"
+#include "common/events/reference_surface.h"
 #include "common/events/surface_renderer.h"
 #include "common/events/wire/event_wire.h"
 
@@ -21,12 +21,11 @@ const EventArray& Events() {
   return events;
 }
 
-SurfaceOptions Settings(bool split) {
+SurfaceOptions Settings() {
   SurfaceOptions s;
   s.kind = SurfaceOptions::Kind::kSymmetric;
   s.truncation = 20;
   s.blur_sigma_px = 1;
-  s.split_polarity = split;
   s.support_filter = true;
   return s;
 }
@@ -43,9 +42,8 @@ void UpdateOurs(benchmark::State& state) {
 BENCHMARK(UpdateOurs)->Name("Surface update, both polarities/ours")->Unit(benchmark::kMillisecond);
 
 void UpdateReference(benchmark::State& state) {
-  ReferenceSurface surface(kWidth, kHeight);
-  const auto events = ReferenceSurface::From(Events());
-  for (auto _ : state) surface.Update(events);
+  ReferenceSurface surface(kWidth, kHeight, Settings());
+  for (auto _ : state) surface.Update(Events(), 0, kEvents);
   PerSecond(state, kEvents, 0, 0);
 }
 BENCHMARK(UpdateReference)->Name("Surface update, both polarities/reference")->Unit(benchmark::kMillisecond);
@@ -60,26 +58,23 @@ void HotPixelsOurs(benchmark::State& state) {
 }
 BENCHMARK(HotPixelsOurs)->Name("Hot pixel counts/ours")->Unit(benchmark::kMillisecond);
 
-void Render(benchmark::State& state, bool split) {
+void RenderOurs(benchmark::State& state) {
   ActiveEventSurface surface(kWidth, kHeight);
-  SurfaceRenderer renderer(kWidth, kHeight, Settings(split));
+  SurfaceRenderer renderer(kWidth, kHeight, Settings());
   const EventArray& e = Events();
   surface.Update(e.t.data(), e.x.data(), e.y.data(), e.p.data(), e.size());
   SurfaceRenderer::View view;
   view.t = e.t.back();
   view.decay_us = 10'000;
   for (auto _ : state) benchmark::DoNotOptimize(renderer.Render(surface, view));
-  PerCall(state, split ? 0.5e-3 : 0.3e-3, kWidth * kHeight * (split ? 10.0 : 9.0));
+  PerCall(state, 0.3e-3, kWidth * kHeight * 9.0);
 }
-BENCHMARK_CAPTURE(Render, one, false)->Name("Render one surface/ours")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(Render, pair, true)->Name("Render signed pair/ours")->Unit(benchmark::kMillisecond);
+BENCHMARK(RenderOurs)->Name("Render one surface/ours")->Unit(benchmark::kMillisecond);
 
 void RenderReference(benchmark::State& state) {
-  ReferenceSurface surface(kWidth, kHeight);
-  surface.Update(ReferenceSurface::From(Events()));
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(surface.Render(static_cast<double>(Events().t.back()) * 1e-6, 0.01));
-  }
+  ReferenceSurface surface(kWidth, kHeight, Settings());
+  surface.Update(Events(), 0, kEvents);
+  for (auto _ : state) benchmark::DoNotOptimize(surface.Render(Events().t.back(), 10'000));
 }
 BENCHMARK(RenderReference)->Name("Render one surface/reference")->Unit(benchmark::kMillisecond);
 

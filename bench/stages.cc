@@ -30,9 +30,10 @@ std::vector<Stage> Stages(const nlohmann::json& report) {
       {"log_replay", "log_replay: read the log, send", {}, {170, 170, 170}},
       {"frame_builder",
        "frame_builder: receive, decode, merge, send",
-       {{"update", "frame_builder: surface of active events"},
-        {"render", "frame_builder: time surface"},
-        {"preintegrate", "frame_builder: pre-integration"}},
+       {
+           {"update", "frame_builder: surface of active events"},
+           {"render", "frame_builder: time surface"},
+       },
        {200, 140, 40}},
       {"map_server", "map_server: receive, send", {{"query", "map_server: visible points"}}, {60, 150, 60}},
       {"window_optimizer",

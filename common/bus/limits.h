@@ -8,7 +8,6 @@ namespace evit {
 
 constexpr std::int32_t kMaxPacketEvents = 100'000;
 constexpr std::int32_t kMaxImuSamples = 100'000;
-constexpr std::int32_t kMaxSurfaces = 2;
 constexpr std::int32_t kMaxImageSide = 8192;       // pixels
 constexpr std::int32_t kMaxSurfaceSize = 1 << 24;  // pixels
 constexpr std::int32_t kMaxMapPoints = 1'000'000;  // in one answer

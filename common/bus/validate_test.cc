@@ -58,7 +58,6 @@ TEST(Validate, Imu) {
 TEST(Validate, Keyframe) {
   ExpectRefused<keyframe_t>("surface_size", [](auto* m) { m->width += 1; });
   ExpectRefused<keyframe_t>("width", [](auto* m) { m->width = -m->width, m->height = -m->height; });
-  ExpectRefused<keyframe_t>("n_surfaces", [](auto* m) { m->n_surfaces = 0, m->surface.clear(); });
   ExpectRefused<keyframe_t>("previous_utime", [](auto* m) { m->previous_utime = m->utime + 1; });
   ExpectRefused<keyframe_t>("imu_utime", [](auto* m) { m->imu_utime.back() = m->utime + 1; });
   ExpectRefused<keyframe_t>("imu_utime", [](auto* m) { m->imu_utime[1] = m->imu_utime[0]; });

@@ -10,7 +10,6 @@ namespace {
 constexpr int kStamp = 3 * 8;  // utime, seq, epoch
 constexpr int kVector = 3 * 8;
 constexpr int kQuaternion = 4 * 8;
-constexpr int kPreintegration = 2 * 8 + 4 * kVector + kQuaternion + 81 * 8 + 2 * 27 * 8;
 constexpr int kNode = 2 * 8 + kVector + kQuaternion + 3 * kVector;
 
 }  // namespace
@@ -27,9 +26,8 @@ EVIT_LAYOUT(credit_t, {Bytes(kStamp), Text("consumer"), Bytes(3 * 8)})
 EVIT_LAYOUT(event_packet_t, {Bytes(kStamp), Count("n", kMaxPacketEvents), Array(4 + 2 + 2 + 1, "n")})
 EVIT_LAYOUT(imu_batch_t, {Bytes(kStamp), Count("n", kMaxImuSamples), Array(8 + 2 * kVector, "n")})
 EVIT_LAYOUT(keyframe_t,
-            {Bytes(kStamp + 8 + 1 + 4 + 2 * 8 + 2 * 4 + 1 + 8), Count("n_surfaces", kMaxSurfaces),
-             Count("surface_size", kMaxSurfaceSize), Array(1, "n_surfaces", "surface_size"),
-             Count("n_imu", kMaxImuSamples), Array(8 + 2 * kVector, "n_imu"), Bytes(4 + kPreintegration)})
+            {Bytes(kStamp + 8 + 1 + 4 + 2 * 8 + 2 * 4 + 1 + 8), Count("surface_size", kMaxSurfaceSize),
+             Array(1, "surface_size"), Count("n_imu", kMaxImuSamples), Array(8 + 2 * kVector, "n_imu"), Bytes(4)})
 EVIT_LAYOUT(map_points_t, {Bytes(kStamp + 3 * 8 + 4), Count("n", kMaxMapPoints), Array(3 * 4 + 4, "n")})
 EVIT_LAYOUT(map_query_t, {Bytes(kStamp + kVector + kQuaternion), Text("camera.model"),
                           Bytes(2 * 4 + 4 * 8 + 5 * 8 + 3 * 8 + 1 + 4 + 8)})
@@ -41,7 +39,7 @@ EVIT_LAYOUT(service_status_t, {Bytes(kStamp), Text("service"), Text("state"), Te
                                Array(8, "n_counters"), Count("n_timings", kMaxStatusEntries),
                                Text("timing_name", "n_timings"), Array(8, "n_timings")})
 EVIT_LAYOUT(stream_end_t, {Bytes(kStamp + 2 * 8)})
-EVIT_LAYOUT(tracker_mode_t, {Bytes(kStamp + 2 * 8 + 2), Text("reason"), Bytes(2 * kVector + 2 * 8)})
+EVIT_LAYOUT(tracker_mode_t, {Bytes(kStamp + 2 * 8 + 2), Text("reason"), Bytes(2 * 8)})
 EVIT_LAYOUT(view_query_t, {Bytes(kStamp + kVector + kQuaternion), Text("camera.model"),
                            Bytes(2 * 4 + 4 * 8 + 5 * 8 + 2 * 8)})
 EVIT_LAYOUT(window_state_t, {Bytes(kStamp + 8 + 1), Count("n_nodes", kMaxWindowNodes),

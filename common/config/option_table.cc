@@ -23,7 +23,6 @@ void VisitOptions(Options& o, const Visitor& visit) {
   visit("surface.default_decay_ms", o.surface.default_decay_ms);
   visit("surface.truncation", o.surface.truncation);
   visit("surface.blur_sigma_px", o.surface.blur_sigma_px);
-  visit("surface.split_polarity", o.surface.split_polarity);
   visit("surface.support_filter", o.surface.support_filter);
   visit("surface.lag_px", o.surface.lag_px);
   visit("surface.hot_pixel_rate_hz", o.surface.hot_pixel_rate_hz);

@@ -28,7 +28,8 @@ int MethodOf(const std::string& path) {
   return found == std::end(kMethods) ? -1 : static_cast<int>(found - std::begin(kMethods));
 }
 
-// The paths where a key of the file stands today; none for a group of the earlier layout.
+// The paths where a key of the file stands today; none for a group of the earlier layout, or a key that has no
+// effect any more.
 std::vector<std::string> PathsNow(const Setting& s) {
   const auto* root = config::Settings::descriptor();
   // `method` names the group that is to be there.
@@ -41,6 +42,7 @@ std::vector<std::string> PathsNow(const Setting& s) {
     if (s.field->message_type() != nullptr) return {};
     return {own.begin(), own.end()};
   }
+  if (s.field->options().deprecated()) return {};
   const std::size_t dot = s.path.find('.');
   const FieldDescriptor* group = FindField(root, s.path.substr(0, dot));
   if (!group->options().deprecated()) return {s.path};
@@ -60,6 +62,9 @@ std::vector<Setting> ReadOne(const std::string& path, std::vector<std::string>* 
       moved.field = FindField(config::Settings::descriptor(), now);
       if (moved.field->message_type() != nullptr) moved.value = {};
       out.push_back(std::move(moved));
+    }
+    if (paths.empty() && s.field->message_type() == nullptr) {
+      notes->push_back(s.Place() + ": " + s.path + " has no effect any more");
     }
     if (!paths.empty() && paths.front() != s.path) {
       notes->push_back(

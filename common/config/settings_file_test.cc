@@ -59,6 +59,7 @@ TEST_F(SettingsFile, FullCopiesOfEarlierVersionsLoadToTheSameValues) {
     const LoadedSettings earlier = LoadSettings(kEarlier + name + "_0.1.textproto");
     EXPECT_EQ(SettingsText(earlier.options), SettingsText(LoadOptions(kConfig + name + ".textproto")));
     EXPECT_THAT(earlier.notes, Contains(HasSubstr("window.kernel is now alignment.kernel")));
+    EXPECT_THAT(earlier.notes, Contains(HasSubstr("surface.split_polarity has no effect any more")));
   }
   const PipelineOptions evpt = LoadOptions(kEarlier + "evpt_0.1.textproto");
   EXPECT_EQ(evpt.method, PipelineOptions::Method::kEvpt);

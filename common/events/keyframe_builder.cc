@@ -175,7 +175,6 @@ void KeyframeBuilder::Push(Utime stamp, const ImuSample& sample, const TrackerFe
     k.from_utime -= half;
     k.lookahead = std::min(lookahead_, half);
   }
-  pending.bias = feedback.bias;
   pending_.push_back(std::move(pending));
 
   imu_.assign(1, boundary);
@@ -209,7 +208,7 @@ Keyframe KeyframeBuilder::Draw(Pending pending) {
   Keyframe k = std::move(pending.keyframe);
   Stopwatch watch;
   if (k.event_count) {
-    k.surfaces.push_back(CountEvents(k));
+    k.surface = CountEvents(k);
     k.render_ms = watch.Lap();
   }
   Apply(pending.position);
@@ -223,11 +222,9 @@ Keyframe KeyframeBuilder::Draw(Pending pending) {
     view.begin = merger_.IndexOf(merger_.first());
     view.end = merger_.IndexOf(merger_.PositionAfter(k.utime + k.lookahead));
     view.ignored = &hot_pixels_.pixels();
-    k.surfaces = renderer_.Render(surface_, view);
+    k.surface = renderer_.Render(surface_, view);
     k.render_ms = watch.Lap();
   }
-  if (k.imu.size() >= 2) k.preintegration = Preintegration(k.imu, pending.bias, rig_.imu_noise);
-  k.preintegrate_ms = watch.Lap();
   return k;
 }
 

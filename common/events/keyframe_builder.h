@@ -12,7 +12,6 @@
 #include "common/events/stream_merger.h"
 #include "common/events/surface_renderer.h"
 #include "common/geometry/rig.h"
-#include "common/imu/preintegration.h"
 
 namespace evit {
 
@@ -28,12 +27,11 @@ struct Keyframe {
   bool event_count = false;  // the surface holds signed counts (EventCounter), of the events after from_utime
   Utime from_utime = 0;
   int width = 0, height = 0;
-  std::vector<SurfaceRenderer::Image> surfaces;
+  SurfaceRenderer::Image surface;
   std::vector<ImuSample> imu;  // from previous_utime to utime, both interpolated where needed; empty if first
   Utime imu_gap = 0;           // us: longest distance between two raw samples of the interval
-  Preintegration preintegration;  // of `imu`; default where that is empty
 
-  double update_ms = 0, render_ms = 0, preintegrate_ms = 0;  // how long making it took
+  double update_ms = 0, render_ms = 0;  // how long making it took
 };
 
 /// Events and IMU samples in, keyframes out (paper Sec. III-B). Feed what there is, then take what Next()
@@ -82,7 +80,6 @@ class KeyframeBuilder {
   struct Pending {  // decided, not drawn yet
     Keyframe keyframe;
     std::int64_t position;  // events before it belong to the surface
-    ImuBias bias;
   };
   bool Decide();
   void Begin(const ImuSample& sample);

@@ -12,7 +12,6 @@ namespace evit {
 struct TrackerFeedback {
   enum class Mode { kBootstrapping = 0, kTracking = 1, kLost = 2 };
   Mode mode = Mode::kBootstrapping;
-  ImuBias bias;
   double image_speed = 0;      // pixels/s; 0: unknown
   double keyframe_stride = 1;  // in overload: so many times more events and samples for each keyframe
 };

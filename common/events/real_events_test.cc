@@ -49,7 +49,7 @@ SurfaceRenderer::Image Draw(const EventArray& events, Utime t, Side side) {
     view.begin = middle;
     view.end = events.size();
   }
-  return renderer.Render(surface, view)[0];
+  return renderer.Render(surface, view);
 }
 
 /// How far `b` lies to the right of `a`, pixels: least squared difference, refined by a parabola.
@@ -97,7 +97,7 @@ TEST_F(RealEventsTest, KeyframesDoNotDependOnThePackets) {
     const auto take = [&] {
       while (auto k = builder.Next()) {
         TrackerFeedback f;
-        if (k->seq >= 3) f = {TrackerFeedback::Mode::kTracking, {}, 150};
+        if (k->seq >= 3) f = {TrackerFeedback::Mode::kTracking, 150};
         builder.SetFeedbackFor(k->seq, f);
         out.push_back(std::move(*k));
       }
@@ -122,7 +122,7 @@ TEST_F(RealEventsTest, KeyframesDoNotDependOnThePackets) {
   for (std::size_t i = 0; i < results[0].size(); ++i) {
     EXPECT_EQ(results[0][i].utime, results[1][i].utime);
     EXPECT_EQ(results[0][i].n_events, results[1][i].n_events);
-    EXPECT_EQ(results[0][i].surfaces, results[1][i].surfaces) << i;
+    EXPECT_EQ(results[0][i].surface, results[1][i].surface) << i;
   }
 }
 

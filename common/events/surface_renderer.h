@@ -17,8 +17,9 @@ double VisibleUs(double decay_us, double truncation);
 /// Draws negated time surfaces (paper Sec. III-B.2).
 ///
 /// T = 255 exp(-|dt| / decay) of the event nearest in time to the instant drawn, 0 below the truncation,
-/// blurred, and negated: 0 is an event just now, 255 none. |dt| looks back only (causal), or to both sides
-/// where events after the instant are given: then the valley lies on the edge and not behind it.
+/// blurred, and negated: 0 is an event just now, 255 none (line by line in reference_surface.cc). |dt| looks
+/// back only (causal), or to both sides where events after the instant are given: then the valley lies on the
+/// edge and not behind it.
 class SurfaceRenderer {
  public:
   using Image = std::vector<std::uint8_t>;  // row-major [height][width]
@@ -33,20 +34,16 @@ class SurfaceRenderer {
     const std::vector<std::int32_t>* ignored =
         nullptr;  // pixels (y * width + x) taken for defect; null: none
   };
-  /// One image, or two where the settings split polarities: brighter, then darker.
-  std::vector<Image> Render(const ActiveEventSurface& surface, const View& view);
+  Image Render(const ActiveEventSurface& surface, const View& view);
 
  private:
-  using Plane = std::vector<std::uint16_t>;
-  void FillDistances(const ActiveEventSurface& surface, const View& view, bool darker, bool brighter,
-                     Plane* distances) const;
+  void FillDistances(const ActiveEventSurface& surface, const View& view);
 
   int width_, height_;
   double truncation_;
-  bool split_, support_;
-  int shift_ = 0;       // distances are in units of 2^shift us
-  Plane distances_[2];  // to the nearest event of each polarity, or of both
-  Plane nearest_;       // of both, where they are split
+  bool support_;
+  int shift_ = 0;                         // distances are in units of 2^shift us
+  std::vector<std::uint16_t> distances_;  // to the nearest event
   SurfacePass pass_;
 };
 

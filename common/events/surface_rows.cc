@@ -41,7 +41,8 @@ EVIT_MULTIVERSION void VisibleRow(const std::uint16_t* __restrict d, const std::
   }
 }
 
-// T in 1/128 grey levels: (255 * 128)^(1/8) e^(-d/8) as a polynomial in d, to the eighth power.
+// The decay, Eq. (2) of the paper (plainly in reference_surface.cc), in 1/128 grey levels: (255 * 128)^(1/8)
+// e^(-d/8) as a polynomial in d, to the eighth power.
 EVIT_ALWAYS_INLINE float DecayAt(float d, const float* c) {
   const float root = c[0] + d * (c[1] + d * (c[2] + d * (c[3] + d * c[4])));
   const float squared = root * root, fourth = squared * squared;
@@ -130,8 +131,7 @@ SurfacePass::SurfacePass(int width, int height, double sigma)
   ring_.resize(stride_ * (2 * static_cast<std::size_t>(radius_) + 1));
 }
 
-void SurfacePass::Drawn(const std::uint16_t* distances, const std::uint16_t* neighbours, int y,
-                        const Decay& decay) {
+void SurfacePass::DrawRow(const std::uint16_t* distances, int y, const Decay& decay) {
   const auto near_row = [&](int row) {
     return near_.data() + static_cast<std::size_t>(row % 3) * (stride_ + 2);
   };
@@ -140,7 +140,7 @@ void SurfacePass::Drawn(const std::uint16_t* distances, const std::uint16_t* nei
     if (row < 0 || row >= height_) {
       std::fill_n(to, stride_, std::uint8_t{0});
     } else {
-      NearRow(neighbours + static_cast<std::size_t>(row) * stride_, width_, decay.near_distance, to);
+      NearRow(distances + static_cast<std::size_t>(row) * stride_, width_, decay.near_distance, to);
     }
   };
   if (decay.support) {
@@ -159,8 +159,7 @@ void SurfacePass::Drawn(const std::uint16_t* distances, const std::uint16_t* nei
   }
 }
 
-void SurfacePass::Run(const std::uint16_t* distances, const std::uint16_t* neighbours, const Decay& decay,
-                      std::uint8_t* image) {
+void SurfacePass::Run(const std::uint16_t* distances, const Decay& decay, std::uint8_t* image) {
   // e^-u on [0, 0.8] by a polynomial of fourth degree (Chebyshev nodes; 7e-6), u = d / (8 decay).
   constexpr double kSeries[] = {0.99999615, -0.99975897, 0.49755438, -0.15782825, 0.02811673};
   double scale = std::pow(255.0 * 128.0, 0.125);
@@ -176,7 +175,7 @@ void SurfacePass::Run(const std::uint16_t* distances, const std::uint16_t* neigh
   };
   for (int y = 0; y < height_ + radius_; ++y) {
     if (y < height_) {
-      Drawn(distances, neighbours, y, decay);
+      DrawRow(distances, y, decay);
       for (int k = 0; k < rows; ++k) taps[k] = padded_.data() + k;
       Convolve(taps.data(), radius_, width_, weights_.data(), ring_row(y));
     }

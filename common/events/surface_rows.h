@@ -24,12 +24,11 @@ class SurfacePass {
     std::uint16_t near_distance = 0;  // units; a neighbour within this supports a pixel
     bool support = false;
   };
-  /// `distances` give T, `neighbours` (another plane, or the same) who supports whom. image: [height][width].
-  void Run(const std::uint16_t* distances, const std::uint16_t* neighbours, const Decay& decay,
-           std::uint8_t* image);
+  /// `distances` and `image`: [height][width].
+  void Run(const std::uint16_t* distances, const Decay& decay, std::uint8_t* image);
 
  private:
-  void Drawn(const std::uint16_t* distances, const std::uint16_t* neighbours, int y, const Decay& decay);
+  void DrawRow(const std::uint16_t* distances, int y, const Decay& decay);
 
   int width_, height_, radius_;
   std::size_t stride_;

@@ -105,7 +105,6 @@ void FrameBuilder::ReportState() {
 void FrameBuilder::Send(Keyframe keyframe) {
   status_.AddTiming("update", keyframe.update_ms);
   status_.AddTiming("render", keyframe.render_ms);
-  status_.AddTiming("preintegrate", keyframe.preintegrate_ms);
   const auto begin = Clock::now();
   keyframe_t message = ToMessage(std::move(keyframe));
   message.epoch = status_.epoch();

@@ -16,7 +16,7 @@
 
 namespace evit {
 
-/// EVENTS and IMU in, KEYFRAME out; listens to TRACKER_MODE for the rate, the biases and the decay. What a
+/// EVENTS and IMU in, KEYFRAME out; listens to TRACKER_MODE for the rate and the decay. What a
 /// keyframe is and how it is made is in common/events.
 ///
 /// Lossless: keyframe k is made with the TRACKER_MODE of keyframe k-2 and waits for it; meanwhile CREDIT

@@ -5,31 +5,6 @@
 #include <utility>
 
 namespace evit {
-namespace {
-
-template <typename Matrix, typename Rows>
-void CopyMatrix(const Matrix& from, Rows& to) {
-  for (Eigen::Index r = 0; r < from.rows(); ++r) {
-    for (Eigen::Index c = 0; c < from.cols(); ++c) to[r][c] = from(r, c);
-  }
-}
-
-preintegration_t ToMessage(const Preintegration& p, const Keyframe& keyframe) {
-  preintegration_t m{};
-  m.begin_utime = keyframe.previous_utime;
-  m.end_utime = keyframe.utime;
-  std::copy_n(p.bias().gyro.data(), 3, m.gyro_bias);
-  std::copy_n(p.bias().accel.data(), 3, m.accel_bias);
-  std::copy_n(p.delta().alpha.data(), 3, m.alpha);
-  std::copy_n(p.delta().beta.data(), 3, m.beta);
-  std::copy_n(p.delta().gamma.coeffs().data(), 4, m.gamma);  // x y z w
-  CopyMatrix(p.covariance(), m.covariance);
-  CopyMatrix(p.d_gyro_bias(), m.d_gyro_bias);
-  CopyMatrix(p.d_accel_bias(), m.d_accel_bias);
-  return m;
-}
-
-}  // namespace
 
 keyframe_t ToMessage(Keyframe k) {
   keyframe_t m{};
@@ -45,10 +20,8 @@ keyframe_t ToMessage(Keyframe k) {
   m.height = k.height;
   m.encoding = k.event_count ? keyframe_t::EVENT_COUNT : keyframe_t::TIME_SURFACE;
   m.from_utime = k.from_utime;
-  m.n_surfaces = static_cast<std::int32_t>(k.surfaces.size());
   m.surface_size = k.width * k.height;
-  m.imu = ToMessage(k.preintegration, k);
-  m.surface = std::move(k.surfaces);
+  m.surface = std::move(k.surface);
   m.n_imu = static_cast<std::int32_t>(k.imu.size());
   for (const ImuSample& s : k.imu) {
     m.imu_utime.push_back(s.t);
@@ -63,8 +36,6 @@ keyframe_t ToMessage(Keyframe k) {
 TrackerFeedback ToFeedback(const tracker_mode_t& m) {
   TrackerFeedback f;
   f.mode = static_cast<TrackerFeedback::Mode>(m.mode);
-  f.bias.gyro = Eigen::Vector3d(m.gyro_bias);
-  f.bias.accel = Eigen::Vector3d(m.accel_bias);
   f.image_speed = m.image_speed;
   f.keyframe_stride = m.keyframe_stride;
   return f;

@@ -9,7 +9,7 @@
 /// checked (DecodeChecked).
 namespace evit {
 
-/// All fields but epoch, which is the caller's. Moves the surfaces out of `keyframe`.
+/// All fields but epoch, which is the caller's. Moves the surface out of `keyframe`.
 keyframe_t ToMessage(Keyframe keyframe);
 
 TrackerFeedback ToFeedback(const tracker_mode_t& message);

@@ -7,7 +7,8 @@
 namespace {
 
 int Main(int argc, char** argv) {
-  CLI::App app{"Makes keyframes (time surfaces and pre-integrated IMU) from events and IMU (LCM service)."};
+  CLI::App app{
+      "Makes keyframes (time surfaces with the IMU samples between them) from events and IMU (LCM service)."};
   std::string rig, config;
   evit::ServiceOptions options;
   app.add_option("--rig", rig, "Calibration of camera and IMU (text protobuf)")->required();

@@ -19,10 +19,9 @@ class KeyframeInboxTest : public ::testing::Test {
   static keyframe_t Keyframe(std::int8_t encoding, int side) {
     keyframe_t keyframe = Sample<keyframe_t>(3);
     keyframe.encoding = encoding;
-    keyframe.n_surfaces = 1;
     keyframe.width = keyframe.height = side;
     keyframe.surface_size = side * side;
-    keyframe.surface.assign(1, std::vector<std::uint8_t>(keyframe.surface_size, 128));
+    keyframe.surface.assign(keyframe.surface_size, 128);
     return keyframe;
   }
   static bool Takes(KeyframeInbox* inbox, const keyframe_t& keyframe) {

@@ -17,11 +17,7 @@ KeyframeInput FromMessage(const keyframe_t& m) {
   k.n_events = m.n_events;
   k.imu_gap = m.imu_gap_us;
   k.surface = cv::Mat(m.height, m.width, CV_8UC1);
-  std::copy(m.surface[0].begin(), m.surface[0].end(), k.surface.data);
-  for (int s = 1; s < m.n_surfaces; ++s) {
-    const cv::Mat other(m.height, m.width, CV_8UC1, const_cast<std::uint8_t*>(m.surface[s].data()));
-    k.surface = cv::min(k.surface, other);
-  }
+  std::copy(m.surface.begin(), m.surface.end(), k.surface.data);
   for (int i = 0; i < m.n_imu; ++i) {
     k.imu.push_back({m.imu_utime[i], Eigen::Vector3d(m.gyro[i].data()), Eigen::Vector3d(m.accel[i].data())});
   }
@@ -85,15 +81,12 @@ window_state_t ToWindowState(const TrackerOutput& output) {
   return m;
 }
 
-tracker_mode_t ToTrackerMode(const TrackerOutput& output, const BodyState& state, Utime t,
-                             std::int64_t keyframe_seq) {
+tracker_mode_t ToTrackerMode(const TrackerOutput& output, Utime t, std::int64_t keyframe_seq) {
   tracker_mode_t m{};
   m.utime = t;
   m.keyframe_seq = keyframe_seq;
   m.mode = static_cast<std::int8_t>(output.mode);
   m.reason = output.reason;
-  Copy(state.bias.gyro, m.gyro_bias);
-  Copy(state.bias.accel, m.accel_bias);
   m.image_speed = output.image_speed;
   m.keyframe_stride = 1;
   return m;

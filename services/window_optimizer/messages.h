@@ -12,8 +12,7 @@
 /// checked before (DecodeChecked); seq and epoch are the caller's.
 namespace evit {
 
-/// The input shares no memory with the message. Split surfaces are joined: the newer of both polarities
-/// counts.
+/// The input shares no memory with the message.
 KeyframeInput FromMessage(const keyframe_t& message);
 
 map_query_t ToMessage(const VisibilityQuery& query);
@@ -24,9 +23,8 @@ std::vector<Eigen::Vector3f> PointsOf(const map_points_t& message);
 /// utime, keyframe_seq, mode, nodes, covariance and figures of the newest keyframe.
 window_state_t ToWindowState(const TrackerOutput& output);
 
-/// utime, keyframe_seq, mode, reason, biases and image speed.
-tracker_mode_t ToTrackerMode(const TrackerOutput& output, const BodyState& state, Utime t,
-                             std::int64_t keyframe_seq);
+/// utime, keyframe_seq, mode, reason and image speed.
+tracker_mode_t ToTrackerMode(const TrackerOutput& output, Utime t, std::int64_t keyframe_seq);
 
 body_pose_t ToBodyPose(Utime t, const NavState& state);
 

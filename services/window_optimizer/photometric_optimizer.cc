@@ -24,7 +24,7 @@ PhotometricFrame FrameOf(const keyframe_t& m) {
   f.begin = m.from_utime;
   f.end = m.utime + m.lookahead_us;
   f.counts = cv::Mat(m.height, m.width, CV_8UC1);
-  std::copy(m.surface[0].begin(), m.surface[0].end(), f.counts.data);
+  std::copy(m.surface.begin(), m.surface.end(), f.counts.data);
   return f;
 }
 
@@ -99,7 +99,7 @@ void PhotometricOptimizer::Report(const ProcessedKeyframe& processed) {
   publisher_.PublishWindow(processed);
   if (processed.output.has_pose)
     publisher_.PublishPose(processed.keyframe.message.utime, {state.T_map_body, state.velocity});
-  publisher_.PublishMode(processed, state, 1);
+  publisher_.PublishMode(processed, 1);
 }
 
 void PhotometricOptimizer::Tick() {

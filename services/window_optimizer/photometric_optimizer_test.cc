@@ -70,11 +70,8 @@ class PhotometricOptimizerTest : public test::OptimizerPeer {
     k.lookahead_us = kInterval / 2;
     k.width = counts.cols;
     k.height = counts.rows;
-    k.n_surfaces = 1;
     k.surface_size = k.width * k.height;
-    k.surface.assign(1, std::vector<std::uint8_t>(counts.datastart, counts.dataend));
-    k.imu.begin_utime = k.imu.end_utime = t;
-    k.imu.gamma[3] = 1;
+    k.surface.assign(counts.datastart, counts.dataend);
     return k;
   }
   std::int64_t Counter(const std::string& name) {
@@ -174,7 +171,7 @@ TEST_F(PhotometricOptimizerTest, WrongKeyframesAndRubbishAreCountedAndSurvived) 
   keyframe_t small = Keyframe(1'000'000);
   small.width = small.height = 16;
   small.surface_size = 256;
-  small.surface.assign(1, std::vector<std::uint8_t>(256, 128));
+  small.surface.assign(256, 128);
   Send(channels_.keyframe, small);
   const std::vector<std::uint8_t> garbage(300, 0xab);
   for (const std::string& channel : {channels_.keyframe, channels_.map_view, channels_.pose_hint})
@@ -203,7 +200,7 @@ TEST_F(PhotometricOptimizerTest, AnotherCamerasKeyframesAreTurnedAway) {
   keyframe_t small = Keyframe(1'000'000);
   small.width = small.height = 16;
   small.surface_size = 256;
-  small.surface.assign(1, std::vector<std::uint8_t>(256, 128));
+  small.surface.assign(256, 128);
   Send(channels_.keyframe, small);
   Pump();
   EXPECT_TRUE(modes_.empty());

@@ -23,8 +23,7 @@ tracker_mode_t RestartCoordinator::Announce(Clock::time_point now) {
   output.mode = checkpoint_->tracking() ? TrackerMode::kTracking : TrackerMode::kBootstrapping;
   output.reason = "restarted: waiting for the keyframes since the checkpoint";
   output.image_speed = checkpoint_->image_speed;
-  tracker_mode_t message =
-      ToTrackerMode(output, checkpoint_->state, checkpoint_->t, checkpoint_->keyframe_seq);
+  tracker_mode_t message = ToTrackerMode(output, checkpoint_->t, checkpoint_->keyframe_seq);
   message.keyframe_epoch = checkpoint_->keyframe_epoch;
   message.resend = 1;
   return message;

@@ -27,11 +27,10 @@ void ResultPublisher::PublishWindow(const ProcessedKeyframe& processed) {
   windows_.Send(&window);
 }
 
-void ResultPublisher::PublishMode(const ProcessedKeyframe& processed, const BodyState& state,
-                                  double keyframe_stride) {
+void ResultPublisher::PublishMode(const ProcessedKeyframe& processed, double keyframe_stride) {
   static constexpr const char* kModes[] = {"bootstrapping", "tracking", "lost"};
   const keyframe_t& keyframe = processed.keyframe.message;
-  last_mode_ = ToTrackerMode(processed.output, state, keyframe.utime, keyframe.seq);
+  last_mode_ = ToTrackerMode(processed.output, keyframe.utime, keyframe.seq);
   last_mode_.keyframe_epoch = keyframe.epoch;
   last_mode_.keyframe_stride = keyframe_stride;
   modes_.Send(&last_mode_);

@@ -24,8 +24,8 @@ class ResultPublisher {
 
   /// WINDOW_STATE, where the keyframe has a pose.
   void PublishWindow(const ProcessedKeyframe& processed);
-  /// TRACKER_MODE. `state`: the newest; `keyframe_stride`: see tracker_mode_t.
-  void PublishMode(const ProcessedKeyframe& processed, const BodyState& state, double keyframe_stride);
+  /// TRACKER_MODE. `keyframe_stride`: see tracker_mode_t.
+  void PublishMode(const ProcessedKeyframe& processed, double keyframe_stride);
   /// The newest TRACKER_MODE of PublishMode() under a new number, where there is one: the first got lost.
   void PublishModeAgain();
   /// A TRACKER_MODE that answers no keyframe; only seq and epoch are set here.

@@ -47,16 +47,13 @@ TEST_F(ResultPublisherTest, WithoutAPoseThereIsNoWindow) {
 
 TEST_F(ResultPublisherTest, AModeAnswersItsKeyframe) {
   EXPECT_FALSE(publisher_.has_answered());
-  BodyState state;
-  state.bias.gyro = {0.1, 0.2, 0.3};
-  publisher_.PublishMode(Processed(3, true), state, 2);
+  publisher_.PublishMode(Processed(3, true), 2);
   EXPECT_TRUE(publisher_.has_answered());
   bus_->Poll(0);
   ASSERT_EQ(modes_.size(), 1U);
   EXPECT_EQ(modes_[0].keyframe_seq, 3);
   EXPECT_EQ(modes_[0].keyframe_epoch, 77);
   EXPECT_EQ(modes_[0].mode, tracker_mode_t::TRACKING);
-  EXPECT_EQ(modes_[0].gyro_bias[2], 0.3);
   EXPECT_EQ(modes_[0].keyframe_stride, 2);
   EXPECT_EQ(status_.state(), "running");
   EXPECT_EQ(status_.Counter("mode.tracking"), 1);
@@ -64,8 +61,8 @@ TEST_F(ResultPublisherTest, AModeAnswersItsKeyframe) {
 
 TEST_F(ResultPublisherTest, TheNewestModeIsSaidAgainUnderANewNumber) {
   publisher_.PublishModeAgain();  // nothing yet
-  publisher_.PublishMode(Processed(3, true), {}, 1);
-  publisher_.PublishMode(Processed(4, true), {}, 1);
+  publisher_.PublishMode(Processed(3, true), 1);
+  publisher_.PublishMode(Processed(4, true), 1);
   publisher_.PublishModeAgain();
   bus_->Poll(0);
   ASSERT_EQ(modes_.size(), 3U);

@@ -143,7 +143,7 @@ void WindowOptimizer::Report(const ProcessedKeyframe& processed) {
   const keyframe_t& keyframe = processed.keyframe.message;
   const TrackerOutput& output = processed.output;
   publisher_.PublishWindow(processed);
-  publisher_.PublishMode(processed, tracker.state(), load_.keyframe_stride());
+  publisher_.PublishMode(processed, load_.keyframe_stride());
   if (restart_.keeps() && output.has_pose) {
     restart_.Store({keyframe.utime, keyframe.epoch, keyframe.seq, tracker.state(), output.information,
                     tracker.rate(), output.image_speed});

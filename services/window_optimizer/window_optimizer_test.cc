@@ -117,7 +117,7 @@ TEST_F(WindowOptimizerTest, BadMessagesAreCountedAndSurvived) {
   keyframe_t small = Keyframe(1'010'000);
   small.width = small.height = 16;
   small.surface_size = 256;
-  small.surface.assign(1, std::vector<std::uint8_t>(256, 255));
+  small.surface.assign(256, 255);
   Send(channels_.keyframe, small);
   Pump();
   EXPECT_TRUE(modes_.empty());

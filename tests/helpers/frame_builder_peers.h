@@ -135,7 +135,6 @@ class Tracker {
     mode.keyframe_epoch = m.epoch;
     mode.mode = m.seq < 5 ? tracker_mode_t::BOOTSTRAPPING : tracker_mode_t::TRACKING;
     mode.image_speed = m.seq < 5 ? 0 : 200 + 50.0 * static_cast<double>(m.seq % 7);
-    mode.gyro_bias[1] = 1e-3 * static_cast<double>(m.seq % 3);
     Publish(bus_, Channels().tracker_mode, mode);
   }
 

@@ -82,9 +82,8 @@ inline keyframe_t Sample<keyframe_t>(int n) {
   m.height = 4;
   m.encoding = keyframe_t::EVENT_COUNT;
   m.from_utime = m.utime - 2000;
-  m.n_surfaces = 2;
   m.surface_size = m.width * m.height;
-  m.surface.assign(2, std::vector<std::uint8_t>(static_cast<std::size_t>(m.surface_size), 200));
+  m.surface.assign(static_cast<std::size_t>(m.surface_size), 200);
   m.n_imu = n;
   for (int i = 0; i < n; ++i) {
     m.imu_utime.push_back(m.previous_utime + std::int64_t{5000} * i);
@@ -92,11 +91,6 @@ inline keyframe_t Sample<keyframe_t>(int n) {
     m.accel.push_back({0.0, 9.81, 0.1 * i});
   }
   m.imu_gap_us = 5000;
-  m.imu.begin_utime = m.previous_utime;
-  m.imu.end_utime = m.utime;
-  SetPose(m.imu.alpha, m.imu.gamma);
-  m.imu.covariance[8][8] = 1e-6;
-  m.imu.d_accel_bias[8][2] = -0.5;
   return m;
 }
 
@@ -200,7 +194,6 @@ inline tracker_mode_t Sample<tracker_mode_t>(int /*n*/) {
   m.keyframe_epoch = 4;
   m.mode = tracker_mode_t::LOST;
   m.reason = "too few points";
-  m.gyro_bias[2] = 0.006;
   m.image_speed = 120;
   m.keyframe_stride = 2;
   return m;

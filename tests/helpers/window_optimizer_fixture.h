@@ -87,10 +87,9 @@ class WindowOptimizerTest : public OptimizerPeer {
     k.decay_us = 5000;
     k.width = 640;
     k.height = 480;
-    k.n_surfaces = 1;
     k.surface_size = 640 * 480;
     const cv::Mat image = synthetic::DrawSurface(alignment_, room_, motion_.State(ToSeconds(t)).T_map_body);
-    k.surface.assign(1, std::vector<std::uint8_t>(image.datastart, image.dataend));
+    k.surface.assign(image.datastart, image.dataend);
     for (const ImuSample& s : motion_.Samples(k.previous_utime, t, {})) {
       k.imu_utime.push_back(s.t);
       k.gyro.push_back({s.gyro.x(), s.gyro.y(), s.gyro.z()});
@@ -98,9 +97,6 @@ class WindowOptimizerTest : public OptimizerPeer {
     }
     k.n_imu = static_cast<std::int32_t>(k.imu_utime.size());
     k.imu_gap_us = 5000;
-    k.imu.begin_utime = k.previous_utime;
-    k.imu.end_utime = t;
-    k.imu.gamma[3] = 1;
     last_ = t;
     return k;
   }

@@ -46,9 +46,8 @@ void WriteLog(const std::string& path, const Rig& rig) {
     keyframe.previous_utime = keyframe.utime - kInterval;
     keyframe.width = rig.camera.width;
     keyframe.height = rig.camera.height;
-    keyframe.n_surfaces = 1;
     keyframe.surface_size = keyframe.width * keyframe.height;
-    keyframe.surface.assign(1, std::vector<std::uint8_t>(keyframe.surface_size, 200));
+    keyframe.surface.assign(keyframe.surface_size, 200);
     keyframe.n_imu = 5;
     keyframe.imu_utime.clear();
     keyframe.gyro.assign(5, {0, 0, 0});
@@ -58,8 +57,6 @@ void WriteLog(const std::string& path, const Rig& rig) {
       const Eigen::Vector3d f = BodyAt(rig, 0).q.conjugate() * Eigen::Vector3d(0, 4, rig.gravity);
       keyframe.accel.push_back({f.x(), f.y(), f.z()});
     }
-    keyframe.imu.begin_utime = keyframe.previous_utime;
-    keyframe.imu.end_utime = keyframe.utime;
     EncodeTo(keyframe, &bytes);
     log.Write(keyframe.utime, "KEYFRAME", bytes.data(), bytes.size());
     window_state_t window = Sample<window_state_t>(1);

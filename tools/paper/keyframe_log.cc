@@ -40,8 +40,7 @@ bool KeyframeLog::Read(std::int64_t seq, RecordedKeyframe* keyframe) const {
   keyframe_t message;
   if (!DecodeChecked(bytes.data(), bytes.size(), &message)) return false;
   *keyframe = {message.utime, message.seq, message.width, message.height, {}, {}};
-  const auto& surface = message.surface.at(0);
-  keyframe->surface.assign(surface.begin(), surface.end());
+  keyframe->surface = message.surface;
   for (int k = 0; k < message.n_imu; ++k) {
     keyframe->imu.push_back({message.imu_utime[k], Eigen::Vector3d(message.gyro[k].data()),
                              Eigen::Vector3d(message.accel[k].data())});
