@@ -5,10 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "procman_lcm/deputy_info_t.hpp"
-#include "procman_lcm/discovery_t.hpp"
-#include "procman_lcm/orders_t.hpp"
-#include "procman_lcm/output_t.hpp"
+#include "procman_lcm/messages.hpp"
 
 namespace evit::procman {
 

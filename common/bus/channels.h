@@ -1,32 +1,32 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 namespace evit {
 
 /// Names of all channels, with an optional prefix so that several pipelines share a bus. docs/channels.md
 /// says who sends what, and a test keeps it true to this list.
 struct Channels {
-  explicit Channels(const std::string& prefix = "")
-      : events(prefix + "EVENTS"),
-        imu(prefix + "IMU"),
-        ground_truth(prefix + "GROUND_TRUTH"),
-        keyframe(prefix + "KEYFRAME"),
-        map_query(prefix + "MAP_QUERY"),
-        map_points(prefix + "MAP_POINTS"),
-        window_state(prefix + "WINDOW_STATE"),
-        body_pose(prefix + "BODY_POSE"),
-        tracker_mode(prefix + "TRACKER_MODE"),
-        status(prefix + "STATUS"),
-        replay_control(prefix + "REPLAY_CONTROL"),
-        credit(prefix + "CREDIT"),
-        stream_end(prefix + "STREAM_END"),
-        pose_hint(prefix + "POSE_HINT"),
-        view_query(prefix + "VIEW_QUERY"),
-        map_view(prefix + "MAP_VIEW") {}
+  explicit Channels(std::string prefix_of_all = "") : prefix(std::move(prefix_of_all)) {}
 
-  std::string events, imu, ground_truth, keyframe, map_query, map_points, window_state, body_pose,
-      tracker_mode, status, replay_control, credit, stream_end, pose_hint, view_query, map_view;
+  std::string prefix;
+  std::string events = prefix + "EVENTS";
+  std::string imu = prefix + "IMU";
+  std::string ground_truth = prefix + "GROUND_TRUTH";
+  std::string keyframe = prefix + "KEYFRAME";
+  std::string map_query = prefix + "MAP_QUERY";
+  std::string map_points = prefix + "MAP_POINTS";
+  std::string window_state = prefix + "WINDOW_STATE";
+  std::string body_pose = prefix + "BODY_POSE";
+  std::string tracker_mode = prefix + "TRACKER_MODE";
+  std::string status = prefix + "STATUS";
+  std::string replay_control = prefix + "REPLAY_CONTROL";
+  std::string credit = prefix + "CREDIT";
+  std::string stream_end = prefix + "STREAM_END";
+  std::string pose_hint = prefix + "POSE_HINT";
+  std::string view_query = prefix + "VIEW_QUERY";
+  std::string map_view = prefix + "MAP_VIEW";
 };
 
 }  // namespace evit

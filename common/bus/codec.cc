@@ -2,17 +2,27 @@
 
 #include <stdexcept>
 
-#include "common/bus/message_arrays.h"
 #include "common/bus/validate.h"
 #include "common/bus/wire_layout.h"
 
 namespace evit {
+namespace {
+
+/// Calls visit(name, count, vector) for each array of `m` whose length another field says. Generated code
+/// keeps the two apart: encoding with a vector that is too short would read past its end, and decoding a
+/// message with n = 0 into a used object would leave the old vector there.
+template <typename Message, typename Visitor>
+void VisitArrays(Message& m, const Visitor& visit) {
+  VisitArraysOf(static_cast<const Message*>(nullptr), m, visit);
+}
+
+}  // namespace
 
 template <typename Message>
 bool DecodeChecked(const std::uint8_t* data, std::size_t size, Message* message, std::string* why) {
   if (!CheckWire(LayoutOf<Message>(), Message::getHash(), data, size, why)) return false;
   if (message->decode(data, 0, static_cast<int>(size)) != static_cast<int>(size)) {
-    if (why != nullptr) *why = "the decoder refuses it";
+    if (why != nullptr) *why = "LCM's decoder refused it";
     return false;
   }
   VisitArrays(*message, [](const char* /*name*/, std::int32_t count, auto& array) {
@@ -38,22 +48,7 @@ void EncodeTo(const Message& message, std::vector<std::uint8_t>* buffer) {
   template bool DecodeChecked<MESSAGE>(const std::uint8_t*, std::size_t, MESSAGE*, std::string*); \
   template void EncodeTo<MESSAGE>(const MESSAGE&, std::vector<std::uint8_t>*);
 // NOLINTEND(bugprone-macro-parentheses)
-
-EVIT_INSTANTIATE(body_pose_t)
-EVIT_INSTANTIATE(credit_t)
-EVIT_INSTANTIATE(event_packet_t)
-EVIT_INSTANTIATE(imu_batch_t)
-EVIT_INSTANTIATE(keyframe_t)
-EVIT_INSTANTIATE(map_points_t)
-EVIT_INSTANTIATE(map_query_t)
-EVIT_INSTANTIATE(map_view_t)
-EVIT_INSTANTIATE(replay_control_t)
-EVIT_INSTANTIATE(service_status_t)
-EVIT_INSTANTIATE(stream_end_t)
-EVIT_INSTANTIATE(tracker_mode_t)
-EVIT_INSTANTIATE(view_query_t)
-EVIT_INSTANTIATE(window_state_t)
-
+EVIT_MESSAGES(EVIT_INSTANTIATE)
 #undef EVIT_INSTANTIATE
 
 }  // namespace evit

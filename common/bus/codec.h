@@ -5,20 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "evit/body_pose_t.hpp"
-#include "evit/credit_t.hpp"
-#include "evit/event_packet_t.hpp"
-#include "evit/imu_batch_t.hpp"
-#include "evit/keyframe_t.hpp"
-#include "evit/map_points_t.hpp"
-#include "evit/map_query_t.hpp"
-#include "evit/map_view_t.hpp"
-#include "evit/replay_control_t.hpp"
-#include "evit/service_status_t.hpp"
-#include "evit/stream_end_t.hpp"
-#include "evit/tracker_mode_t.hpp"
-#include "evit/view_query_t.hpp"
-#include "evit/window_state_t.hpp"
+#include "evit/messages.hpp"
 
 /// Decoding that trusts nothing: lengths, fingerprint, every count (before memory is reserved) and, in
 /// Validate(), the meaning of fields (finite numbers, unit quaternions, sorted times, sizes that agree).

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -11,9 +13,7 @@
 namespace evit {
 namespace {
 
-using Messages = ::testing::Types<body_pose_t, credit_t, event_packet_t, imu_batch_t, keyframe_t,
-                                  map_points_t, map_query_t, map_view_t, replay_control_t, service_status_t,
-                                  stream_end_t, tracker_mode_t, view_query_t, window_state_t>;
+using Messages = AllMessages<::testing::Types>;
 template <typename Message>
 class CodecTest : public ::testing::Test {};
 TYPED_TEST_SUITE(CodecTest, Messages);
@@ -133,6 +133,17 @@ TYPED_TEST(CodecTest, RandomBytesAreRefused) {
     std::copy_n(original.begin(), std::min<std::size_t>(8, bytes.size()), bytes.begin());
     DecodeExact<TypeParam>(bytes);
   }
+}
+
+TYPED_TEST(CodecTest, AValidSeedForFuzzingIsKept) {
+  const std::string type = TypeParam::getTypeName();
+  const std::string path =
+      EVIT_SOURCE_DIR "/tests/fuzz/corpus/messages/" + type.substr(0, type.size() - std::string("_t").size());
+  std::ifstream file(path, std::ios::binary);
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file),
+                                        std::istreambuf_iterator<char>()};
+  std::string why;
+  EXPECT_TRUE(DecodeExact<TypeParam>(bytes, &why)) << path << ": " << why;
 }
 
 TEST(Codec, EncodingAVectorThatBeliesItsCountThrows) {

@@ -2,17 +2,12 @@
 
 #include <cstdint>
 
-/// What a message may hold at most. Far above what is sent, far below what would harm: a forged count costs
-/// no more than this.
+/// What a message may hold at most; lengths of arrays have theirs in lcmtypes/ ("at most"). Far above what is
+/// sent, far below what would harm: a forged count costs no more than this.
 namespace evit {
 
-constexpr std::int32_t kMaxPacketEvents = 100'000;
-constexpr std::int32_t kMaxImuSamples = 100'000;
-constexpr std::int32_t kMaxImageSide = 8192;       // pixels
-constexpr std::int32_t kMaxSurfaceSize = 1 << 24;  // pixels
-constexpr std::int32_t kMaxMapPoints = 1'000'000;  // in one answer
-constexpr std::int32_t kMaxWindowNodes = 1000;
-constexpr std::int32_t kMaxStatusEntries = 1000;
+constexpr std::int32_t kMaxImageSide = 8192;                  // pixels
+constexpr std::int32_t kMaxMapPoints = 1'000'000;             // in one answer
 constexpr std::int64_t kMaxTime = std::int64_t{1} << 60;      // us, either sign: differences never overflow
 constexpr std::int64_t kMaxSequence = std::int64_t{1} << 40;  // message numbers: no sender lives so long
 

@@ -69,7 +69,7 @@ class WireCursor {
   std::string* why_;
 };
 
-/// The counts read so far, by name. No message has more than four.
+/// The counts read so far, by name.
 class Counts {
  public:
   void Add(const char* name, std::int32_t value) { counts_.at(n_++) = {name, value}; }
@@ -85,7 +85,7 @@ class Counts {
     const char* name = nullptr;
     std::int32_t value = 0;
   };
-  std::array<Named, 4> counts_;
+  std::array<Named, kMaxCounts> counts_;
   std::size_t n_ = 0;
 };
 

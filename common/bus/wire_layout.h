@@ -42,6 +42,9 @@ constexpr WireField Group(const WireLayout* fields, const char* rows) {
   return {WireField::Kind::kGroup, 0, nullptr, 0, rows, nullptr, fields};
 }
 
+/// Counts that one layout may have.
+constexpr std::size_t kMaxCounts = 8;
+
 /// Longest string accepted, bytes.
 constexpr std::int32_t kMaxText = 1 << 16;
 
@@ -51,7 +54,7 @@ constexpr std::int32_t kMaxText = 1 << 16;
 bool CheckWire(const WireLayout& layout, std::int64_t fingerprint, const std::uint8_t* data, std::size_t size,
                std::string* why);
 
-/// The layout of each message that the bus carries (wire_layouts.cc).
+/// The layout of each message, generated from its .lcm file (generator/message_code.h).
 template <typename Message>
 const WireLayout& LayoutOf();
 

@@ -1,4 +1,4 @@
-// Every message from the bus. The first byte chooses its type.
+// Every message from the bus: its fingerprint says which one.
 #include "common/bus/codec.h"
 #include "common/events/wire/event_wire.h"
 #include "procman/wire.h"
@@ -27,29 +27,14 @@ void TryProcman(const std::uint8_t* data, std::size_t size) {
   if (evit::procman::DecodeProcman(data, size, &message, &why)) evit::procman::EncodeProcman(message);
 }
 
-using Function = void (*)(const std::uint8_t*, std::size_t);
-constexpr Function kTypes[] = {&Try<evit::body_pose_t>,
-                               &Try<evit::credit_t>,
-                               &Try<evit::event_packet_t>,
-                               &Try<evit::imu_batch_t>,
-                               &Try<evit::keyframe_t>,
-                               &Try<evit::map_points_t>,
-                               &Try<evit::map_query_t>,
-                               &Try<evit::replay_control_t>,
-                               &Try<evit::service_status_t>,
-                               &Try<evit::stream_end_t>,
-                               &Try<evit::tracker_mode_t>,
-                               &Try<evit::window_state_t>,
-                               &TryProcman<procman_lcm::orders_t>,
-                               &TryProcman<procman_lcm::deputy_info_t>,
-                               &TryProcman<procman_lcm::output_t>,
-                               &TryProcman<procman_lcm::discovery_t>,
-                               &Try<evit::map_view_t>,
-                               &Try<evit::view_query_t>};
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size > 0) kTypes[data[0] % std::size(kTypes)](data + 1, size - 1);
+#define EVIT_TRY(MESSAGE) Try<evit::MESSAGE>(data, size);
+  EVIT_MESSAGES(EVIT_TRY)
+#undef EVIT_TRY
+#define EVIT_TRY(MESSAGE) TryProcman<procman_lcm::MESSAGE>(data, size);
+  PROCMAN_LCM_MESSAGES(EVIT_TRY)
+#undef EVIT_TRY
   return 0;
 }
