@@ -7,7 +7,7 @@
 #include "common/events/hot_pixels.h"
 #include "common/events/reference_surface.h"
 #include "common/events/surface_renderer.h"
-#include "common/events/wire/event_wire.h"
+#include "common/wire/event_wire.h"
 
 namespace evit::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include "common/config/rig_file.h"
 #include "common/config/settings_file.h"
 #include "common/events/keyframe_builder.h"
-#include "common/events/wire/event_wire.h"
+#include "common/wire/event_wire.h"
 #include "tests/helpers/clouds.h"
 
 namespace evit::bench {
@@ -30,7 +30,8 @@ void EventRate(benchmark::State& state) {
   event_packet_t packet;
   double keyframes = 0, seconds = 0;
   for (auto _ : state) {
-    KeyframeBuilder builder(rig, {pipeline.keyframes, pipeline.surface}, false);
+    KeyframeBuilder builder(rig, {pipeline.keyframes, pipeline.surface, Keyframe::Encoding::kTimeSurface},
+                            false);
     builder.SetFeedbackFor(-1, feedback);
     ImuSample imu{1'000'000, {0, 0, 0.1}, {0, 0, 9.81}};
     for (const auto& bytes : packets) {

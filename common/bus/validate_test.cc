@@ -64,9 +64,6 @@ TEST(Validate, Keyframe) {
   ExpectRefused<keyframe_t>("decay_us", [](auto* m) { m->decay_us = 0; });
   ExpectRefused<keyframe_t>("encoding", [](auto* m) { m->encoding = 2; });
   ExpectRefused<keyframe_t>("from_utime", [](auto* m) { m->from_utime = m->utime + 1; });
-  ExpectRefused<keyframe_t>("imu.gamma", [](auto* m) { m->imu.gamma[0] = 2; });
-  ExpectRefused<keyframe_t>("imu.covariance", [](auto* m) { m->imu.covariance[8][8] = kNaN; });
-  ExpectRefused<keyframe_t>("imu.end_utime", [](auto* m) { m->imu.end_utime = m->imu.begin_utime - 1; });
 }
 
 TEST(Validate, PhotometricMap) {

@@ -28,7 +28,7 @@ TEST(EventCounter, CountsWithSignLimitsAndIgnores) {
 // As the builder cuts them: half of each interval before a keyframe's stamp, half after it.
 TEST(EventCounter, KeyframesCountAroundTheirStamp) {
   KeyframeBuilder::Options options = test::SmallOptions();
-  options.event_counts = true;
+  options.encoding = Keyframe::Encoding::kEventCount;
   options.surface.hot_pixel_rate_hz = 0;
   const EventArray all = test::RandomStream(1'000'000, 2'000'000, 60'000, 3);
   KeyframeBuilder builder(test::SmallRig(), options, true);
@@ -41,7 +41,7 @@ TEST(EventCounter, KeyframesCountAroundTheirStamp) {
     if (!k) break;
     builder.SetFeedbackFor(k->seq, {});
     EXPECT_FALSE(k->high_rate);
-    EXPECT_TRUE(k->event_count);
+    EXPECT_EQ(k->encoding, Keyframe::Encoding::kEventCount);
     if (k->seq > 0) {
       EXPECT_GE(k->n_events, 1500);  // adaptive from the start
       EXPECT_NEAR(static_cast<double>(k->utime - k->from_utime), 0.5 * (k->utime - k->previous_utime), 1);

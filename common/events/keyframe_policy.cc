@@ -12,8 +12,10 @@ Utime Micros(double ms) { return std::max<Utime>(std::llround(ms * 1e3), 1); }
 
 }  // namespace
 
-KeyframePolicy::KeyframePolicy(const KeyframeOptions& keyframes, const SurfaceOptions& surface)
-    : n_event_(keyframes.n_event),
+KeyframePolicy::KeyframePolicy(const KeyframeOptions& keyframes, const SurfaceOptions& surface,
+                               bool always_adaptive)
+    : always_adaptive_(always_adaptive),
+      n_event_(keyframes.n_event),
       min_events_(keyframes.min_events),
       n_imu_(keyframes.n_imu),
       max_interval_(Micros(keyframes.max_interval_ms)),
@@ -32,7 +34,7 @@ std::optional<Utime> KeyframePolicy::Due(const Situation& s) const {
   }
   const bool enough = static_cast<double>(s.n_events) >= s.stride * static_cast<double>(n_event_) &&
                       s.n_imu >= s.stride * n_imu_;
-  // Without events too a keyframe comes at last: the IMU goes on, and with it what is known of the state.
+  // A keyframe comes at last without events too: the IMU continues, and with it what is known of the state.
   const Utime waited = s.imu - s.last;
   const bool late = (waited >= max_interval_ && s.n_events >= min_events_) || waited >= 2 * max_interval_;
   if (enough || late) return s.imu;

@@ -1,25 +1,21 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "common/events/keyframe_options.h"
 #include "common/events/surface_options.h"
-#include "common/imu/imu_sample.h"
+#include "common/events/tracker_feedback.h"
+#include "common/time/utime.h"
 
 namespace evit {
-
-/// What the tracker says, as far as keyframes depend on it (tracker_mode_t).
-struct TrackerFeedback {
-  enum class Mode { kBootstrapping = 0, kTracking = 1, kLost = 2 };
-  Mode mode = Mode::kBootstrapping;
-  double image_speed = 0;      // pixels/s; 0: unknown
-  double keyframe_stride = 1;  // in overload: so many times more events and samples for each keyframe
-};
 
 /// When a keyframe is due, and with which decay its surface is drawn. Pure: no state, no clock.
 class KeyframePolicy {
  public:
-  KeyframePolicy(const KeyframeOptions& keyframes, const SurfaceOptions& surface);
+  /// `always_adaptive`: never at the high rate, whatever the tracker's mode (EVPT).
+  KeyframePolicy(const KeyframeOptions& keyframes, const SurfaceOptions& surface,
+                 bool always_adaptive = false);
 
   struct Situation {
     TrackerFeedback::Mode mode = TrackerFeedback::Mode::kBootstrapping;
@@ -36,12 +32,15 @@ class KeyframePolicy {
   /// be interpolated.
   std::optional<Utime> Due(const Situation& situation) const;
 
-  static bool IsHighRate(TrackerFeedback::Mode mode) { return mode != TrackerFeedback::Mode::kTracking; }
+  bool IsHighRate(TrackerFeedback::Mode mode) const {
+    return !always_adaptive_ && mode != TrackerFeedback::Mode::kTracking;
+  }
 
   /// us: the time an edge takes for `tail_px`, within the bounds of the settings.
   double DecayUs(double image_speed) const;
 
  private:
+  bool always_adaptive_;
   std::int64_t n_event_, min_events_;
   int n_imu_;
   Utime max_interval_, high_rate_interval_, fixed_interval_;

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "common/events/keyframe_builder.h"
+#include "common/events/surface_renderer.h"
 #include "tests/helpers/event_streams.h"
 
 namespace evit {

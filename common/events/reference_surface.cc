@@ -61,8 +61,8 @@ std::vector<double> ReferenceSurface::Blurred(const std::vector<double>& image, 
       double sum = 0, weights = 0;
       for (int k = -radius; k <= radius; ++k) {
         const double weight = k == 0 ? 1 : std::exp(-0.5 * k * k / (sigma * sigma));
-        sum += weight *
-               (along_x ? image[At(reflect(x + k, width_), y)] : image[At(x, reflect(y + k, height_))]);
+        sum +=
+            weight * (along_x ? image[At(reflect(x + k, width_), y)] : image[At(x, reflect(y + k, height_))]);
         weights += weight;
       }
       out[At(x, y)] = sum / weights;

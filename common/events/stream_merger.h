@@ -13,7 +13,7 @@ namespace evit {
 /// next only when all events up to its stamp are known. Keeps events that are still needed.
 ///
 /// Bad times: what is late by up to kMaxDisorder is dropped and counted; a jump further back means that the
-/// clock was set, and everything begins anew (resets()).
+/// clock was set, and everything restarts (Counters::resets).
 class StreamMerger {
  public:
   static constexpr Utime kMaxDisorder = 1'000'000;                  // us
@@ -29,8 +29,8 @@ class StreamMerger {
     std::int64_t resets = 0;
   };
 
-  /// `wait_for_events`: never use an IMU sample before the events up to it are known; false (real time): go
-  /// on when the IMU is kImuLead ahead. `time_offset` (us) is added to event stamps.
+  /// `wait_for_events`: never use an IMU sample before the events up to it are known; false (real time):
+  /// continue when the IMU is kImuLead ahead. `time_offset` (us) is added to event stamps.
   /// IMU readings beyond `noise`'s ranges are errors.
   StreamMerger(int width, int height, bool wait_for_events, Utime time_offset, const ImuNoise& noise = {});
 

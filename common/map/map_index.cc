@@ -1,3 +1,5 @@
+#include "common/map/map_index.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +9,6 @@
 #include "common/map/occlusion.h"
 #include "common/map/spread_subset.h"
 #include "common/map/view_projector.h"
-#include "common/map/visibility.h"
 
 namespace evit {
 namespace {

@@ -1,3 +1,5 @@
+#include "common/map/map_index.h"
+
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <map>
 #include <set>
 
-#include "common/map/visibility.h"
 #include "tests/helpers/clouds.h"
 
 namespace evit {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "common/geometry/lane_camera.h"
+#include "common/map/map_index.h"
 #include "common/map/occlusion.h"
-#include "common/map/visibility.h"
 
 namespace evit {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/geometry/rig.h"
-#include "common/map/visibility.h"
+#include "common/map/map_index.h"
 #include "common/tracking/active_points.h"
 #include "common/tracking/bootstrap.h"
 #include "common/tracking/localizer.h"

@@ -4,8 +4,10 @@
 #include <utility>
 
 #include "common/bus/codec.h"
-#include "common/events/wire/event_wire.h"
-#include "services/frame_builder/keyframe_message.h"
+#include "common/time/milliseconds.h"
+#include "common/wire/event_wire.h"
+#include "common/wire/imu_wire.h"
+#include "common/wire/keyframe_wire.h"
 
 namespace evit {
 namespace {
@@ -62,7 +64,7 @@ void FrameBuilder::Feed(const StreamInbox::Item& item) {
     AppendEvents(*packet, &events_);
     builder_.AddEvents(events_, packet->n > 0 ? events_.t.back() : packet->utime);
   } else {
-    for (const ImuSample& s : ToSamples(std::get<imu_batch_t>(item.message))) builder_.AddImu(s);
+    for (const ImuSample& s : SamplesOf(std::get<imu_batch_t>(item.message))) builder_.AddImu(s);
   }
   if (credit_) {
     credit_->Consumed(inbox_.epoch(), inbox_.taken_events(), inbox_.taken_imu(), item.bytes);
@@ -115,7 +117,7 @@ void FrameBuilder::Send(Keyframe keyframe) {
   }
   EncodeTo(message, &sent.bytes);
   moved_ = Clock::now();
-  status_.AddTiming("encode", std::chrono::duration<double, std::milli>(moved_ - begin).count());
+  status_.AddTiming("encode", Milliseconds(moved_ - begin));
   last_sent_ = sent.seq;
   recent_.push_back(std::move(sent));
   if (wanted_.empty()) {

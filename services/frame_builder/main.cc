@@ -24,7 +24,9 @@ int Main(int argc, char** argv) {
   settings.rig = evit::LoadRig(rig);
   const evit::PipelineOptions pipeline = evit::LoadOptions(config);
   settings.keyframes = {pipeline.keyframes, pipeline.surface,
-                        pipeline.method == evit::PipelineOptions::Method::kEvpt};
+                        pipeline.method == evit::PipelineOptions::Method::kEvpt
+                            ? evit::Keyframe::Encoding::kEventCount
+                            : evit::Keyframe::Encoding::kTimeSurface};
   settings.lossless = options.lossless;
   const auto bus = evit::OpenServiceBus(options);
   evit::FrameBuilder service(bus.get(), evit::Channels(options.prefix), settings);

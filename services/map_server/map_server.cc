@@ -1,10 +1,11 @@
 #include "services/map_server/map_server.h"
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include "common/bus/codec.h"
+#include "common/time/milliseconds.h"
+#include "common/wire/map_wire.h"
 
 namespace evit {
 namespace {
@@ -12,28 +13,6 @@ namespace {
 constexpr int kMaxPoints = 20'000;      // in one answer: 320 kB, well within a receive buffer
 constexpr std::size_t kMaxQueued = 64;  // queries; more are a flood, and old answers help nobody
 constexpr double kMaxMargin = 2000;  // pixels: the depth buffer covers the margin too, its memory is bounded
-
-VisibilityQuery FromMessage(const map_query_t& m) {
-  VisibilityQuery q;
-  q.T_map_camera = {
-      Eigen::Quaterniond(m.orientation[3], m.orientation[0], m.orientation[1], m.orientation[2]).normalized(),
-      Eigen::Vector3d(m.position)};
-  CameraModelFromName(m.camera.model, &q.camera.model);
-  q.camera.width = m.camera.width;
-  q.camera.height = m.camera.height;
-  q.camera.fx = m.camera.fx;
-  q.camera.fy = m.camera.fy;
-  q.camera.cx = m.camera.cx;
-  q.camera.cy = m.camera.cy;
-  std::copy(std::begin(m.camera.distortion), std::end(m.camera.distortion), q.camera.distortion.begin());
-  q.margin_px = m.margin_px;
-  q.min_depth = m.min_depth;
-  q.max_depth = m.max_depth;
-  q.occlusion = m.occlusion != 0;
-  q.max_points = m.max_points;
-  q.seed = static_cast<std::uint64_t>(m.seed);
-  return q;
-}
 
 }  // namespace
 
@@ -76,24 +55,14 @@ void MapServer::Tick() {
 void MapServer::Answer(const map_query_t& message) {
   const auto begin = std::chrono::steady_clock::now();
   const VisibilityAnswer visible = index_.Query(FromMessage(message));
-  status_.AddTiming(
-      "query", std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+  status_.AddTiming("query", Milliseconds(std::chrono::steady_clock::now() - begin));
 
-  map_points_t answer{};
+  map_points_t answer = ToMessage(visible, index_.map());
   answer.utime = message.utime;
   answer.seq = seq_++;
   answer.epoch = status_.epoch();
   answer.query_seq = message.seq;
   answer.query_epoch = message.epoch;
-  answer.map_size = static_cast<std::int64_t>(index_.map().points.size());
-  answer.n_visible = visible.n_visible;
-  answer.n = static_cast<std::int32_t>(visible.ids.size());
-  answer.id = visible.ids;
-  answer.xyz.reserve(visible.ids.size());
-  for (const std::int32_t id : visible.ids) {
-    const Eigen::Vector3f& p = index_.map().points[id];
-    answer.xyz.push_back({p.x(), p.y(), p.z()});
-  }
   EncodeTo(answer, &buffer_);
   bus_->Publish(channels_.map_points, buffer_.data(), buffer_.size());
 }

@@ -8,7 +8,7 @@
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
-#include "common/map/visibility.h"
+#include "common/map/map_index.h"
 #include "common/service/runner.h"
 #include "common/service/sequence_counter.h"
 #include "common/service/status_reporter.h"

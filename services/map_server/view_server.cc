@@ -4,7 +4,8 @@
 #include <utility>
 
 #include "common/bus/codec.h"
-#include "common/photometric/wire/view_wire.h"
+#include "common/time/milliseconds.h"
+#include "common/wire/view_wire.h"
 
 namespace evit {
 namespace {
@@ -58,8 +59,7 @@ void ViewServer::Tick() {
 void ViewServer::Answer(const view_query_t& message) {
   const auto begin = std::chrono::steady_clock::now();
   renderer_.Render(FromMessage(message), &view_);
-  status_->AddTiming(
-      "view", std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+  status_->AddTiming("view", Milliseconds(std::chrono::steady_clock::now() - begin));
   map_view_t answer = ToMessage(view_);
   answer.utime = message.utime;
   answer.seq = seq_++;

@@ -4,7 +4,7 @@
 
 #include "common/bus/codec.h"
 #include "common/bus/memory_bus.h"
-#include "common/photometric/wire/view_wire.h"
+#include "common/wire/view_wire.h"
 #include "services/map_server/map_server.h"
 #include "tests/helpers/photometric_room.h"
 

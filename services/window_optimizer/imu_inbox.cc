@@ -1,6 +1,7 @@
 #include "services/window_optimizer/imu_inbox.h"
 
 #include "common/bus/codec.h"
+#include "common/wire/imu_wire.h"
 
 namespace evit {
 
@@ -12,9 +13,7 @@ std::vector<ImuSample> ImuInbox::OnMessage(const std::uint8_t* data, std::size_t
   }
   if (counter_.Accept(message.epoch, message.seq) == SequenceCounter::Verdict::kNewEpoch) history_.Clear();
   std::vector<ImuSample> samples;
-  for (int i = 0; i < message.n; ++i) {
-    const ImuSample sample{message.sample_utime[i], Eigen::Vector3d(message.gyro[i].data()),
-                           Eigen::Vector3d(message.accel[i].data())};
+  for (const ImuSample& sample : SamplesOf(message)) {
     if (history_.Add(sample)) samples.push_back(sample);
   }
   return samples;

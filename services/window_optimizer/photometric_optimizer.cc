@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "common/bus/subscribe.h"
-#include "common/photometric/wire/view_wire.h"
 #include "common/time/milliseconds.h"
+#include "common/wire/view_wire.h"
 
 namespace evit {
 namespace {

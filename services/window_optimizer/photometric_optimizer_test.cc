@@ -3,7 +3,7 @@
 #include "services/window_optimizer/photometric_optimizer.h"
 
 #include "common/photometric/view_renderer.h"
-#include "common/photometric/wire/view_wire.h"
+#include "common/wire/view_wire.h"
 #include "tests/helpers/optimizer_peer.h"
 #include "tests/helpers/photometric_room.h"
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/bus/codec.h"
+#include "common/wire/geometry_wire.h"
 
 namespace evit {
 
@@ -13,8 +14,7 @@ void PoseHintInbox::OnMessage(const std::uint8_t* data, std::size_t size) {
     return;
   }
   if (counter_.Accept(message.epoch, message.seq) == SequenceCounter::Verdict::kOld) return;
-  const double* q = message.orientation;
-  hint_ = SE3{Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(), Eigen::Vector3d(message.position)};
+  hint_ = PoseOf(message);
 }
 
 std::optional<SE3> PoseHintInbox::Take() { return std::exchange(hint_, std::nullopt); }

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "services/window_optimizer/messages.h"
+#include "common/wire/tracker_wire.h"
 
 namespace evit {
 

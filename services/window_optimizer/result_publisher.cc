@@ -4,7 +4,7 @@
 #include <string>
 
 #include "common/time/milliseconds.h"
-#include "services/window_optimizer/messages.h"
+#include "common/wire/tracker_wire.h"
 
 namespace evit {
 

@@ -6,7 +6,8 @@
 
 #include "common/bus/subscribe.h"
 #include "common/imu/preintegration.h"
-#include "services/window_optimizer/messages.h"
+#include "common/wire/map_wire.h"
+#include "common/wire/tracker_wire.h"
 
 namespace evit {
 namespace {

@@ -1,6 +1,6 @@
 // Every message from the bus: its fingerprint says which one.
 #include "common/bus/codec.h"
-#include "common/events/wire/event_wire.h"
+#include "common/wire/event_wire.h"
 #include "procman/wire.h"
 
 namespace {

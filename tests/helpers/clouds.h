@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "common/map/visibility.h"
+#include "common/map/map_index.h"
 
 /// Clouds and cameras for the tests of the map index.
 namespace evit::test {

@@ -9,7 +9,8 @@
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
-#include "common/events/wire/event_wire.h"
+#include "common/wire/event_wire.h"
+#include "common/wire/imu_wire.h"
 #include "tests/helpers/bus_messages.h"
 #include "tests/helpers/event_streams.h"
 
@@ -31,13 +32,8 @@ inline Recording MakeRecording(std::size_t packet, Utime duration = 1'000'000) {
     r.events.push_back(ToPackets(part, 0, static_cast<std::int64_t>(r.events.size())).at(0));
   }
   for (const ImuSample& s : ImuStream(begin + 1'000, begin + duration - 5'000)) {
-    imu_batch_t m{};
-    m.utime = s.t;
+    imu_batch_t m = ToMessage(s);
     m.seq = static_cast<std::int64_t>(r.imu.size());
-    m.n = 1;
-    m.sample_utime = {s.t};
-    m.gyro = {{s.gyro.x(), s.gyro.y(), s.gyro.z()}};
-    m.accel = {{s.accel.x(), s.accel.y(), s.accel.z()}};
     r.imu.push_back(m);
   }
   return r;

@@ -10,8 +10,8 @@
 #include "common/bus/codec.h"
 #include "common/bus/log_file.h"
 #include "common/evaluation/trajectory.h"
-#include "common/events/wire/event_wire.h"
 #include "common/imu/imu_sample.h"
+#include "common/wire/event_wire.h"
 
 namespace evit {
 

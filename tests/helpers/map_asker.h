@@ -9,7 +9,8 @@
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
 #include "common/bus/codec.h"
-#include "common/map/visibility.h"
+#include "common/map/map_index.h"
+#include "common/wire/map_wire.h"
 #include "tests/helpers/clouds.h"
 
 namespace evit::test {
@@ -69,26 +70,10 @@ inline VisibilityQuery LibraryQuery() {
 /// The same as a message.
 inline map_query_t QueryMessage(std::int64_t seq) {
   const VisibilityQuery q = LibraryQuery();
-  map_query_t m{};
+  map_query_t m = ToMessage(q);
   m.utime = 1'000'000 + seq;
   m.seq = seq;
   m.epoch = 5;
-  for (int k = 0; k < 3; ++k) m.position[k] = q.T_map_camera.p[k];
-  for (int k = 0; k < 4; ++k) m.orientation[k] = q.T_map_camera.q.coeffs()[k];
-  m.camera.model = "plumb_bob";
-  m.camera.width = q.camera.width;
-  m.camera.height = q.camera.height;
-  m.camera.fx = q.camera.fx;
-  m.camera.fy = q.camera.fy;
-  m.camera.cx = q.camera.cx;
-  m.camera.cy = q.camera.cy;
-  for (int k = 0; k < 5; ++k) m.camera.distortion[k] = q.camera.distortion[k];
-  m.margin_px = q.margin_px;
-  m.min_depth = q.min_depth;
-  m.max_depth = q.max_depth;
-  m.occlusion = 1;
-  m.max_points = q.max_points;
-  m.seed = static_cast<std::int64_t>(q.seed);
   return m;
 }
 

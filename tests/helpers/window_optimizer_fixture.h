@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/tracking/synthetic_scene.h"
+#include "common/wire/imu_wire.h"
 #include "services/window_optimizer/window_optimizer.h"
 #include "tests/helpers/optimizer_peer.h"
 
@@ -126,14 +127,9 @@ class WindowOptimizerTest : public OptimizerPeer {
     std::int64_t seq = 0;
     for (Utime t = begin; t <= end; t += 5'000) {
       const ImuSample s = motion_.Imu(t, {});
-      imu_batch_t m{};
-      m.utime = t;
+      imu_batch_t m = ToMessage(s);
       m.seq = seq++;
       m.epoch = 3;
-      m.n = 1;
-      m.sample_utime = {t};
-      m.gyro = {{s.gyro.x(), s.gyro.y(), s.gyro.z()}};
-      m.accel = {{s.accel.x(), s.accel.y(), s.accel.z()}};
       Send(channels_.imu, m);
     }
     Pump();

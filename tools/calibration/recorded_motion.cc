@@ -5,7 +5,7 @@
 
 #include "common/bus/codec.h"
 #include "common/bus/log_file.h"
-#include "evit/imu_batch_t.hpp"
+#include "common/wire/imu_wire.h"
 
 namespace evit::calibration {
 
@@ -21,9 +21,7 @@ std::vector<ImuSample> ReadImu(const std::string& path, const ImuNoise& limits) 
       continue;
     log.Read(entry, &bytes);
     if (!DecodeChecked(bytes.data(), bytes.size(), &message)) continue;
-    for (int k = 0; k < message.n; ++k) {
-      const ImuSample s{message.sample_utime[k], Eigen::Vector3d(message.gyro[k].data()),
-                        Eigen::Vector3d(message.accel[k].data())};
+    for (const ImuSample& s : SamplesOf(message)) {
       if (s.gyro.cwiseAbs().maxCoeff() <= 1.1 * limits.gyro_range &&
           s.accel.cwiseAbs().maxCoeff() <= 1.1 * limits.accel_range) {
         samples.push_back(s);

@@ -3,6 +3,8 @@
 #include <stdexcept>
 
 #include "common/bus/codec.h"
+#include "common/wire/geometry_wire.h"
+#include "common/wire/imu_wire.h"
 
 namespace evit::paper {
 namespace {
@@ -39,20 +41,14 @@ bool KeyframeLog::Read(std::int64_t seq, RecordedKeyframe* keyframe) const {
   log_.Read(log_.entries().at(it->second), &bytes);
   keyframe_t message;
   if (!DecodeChecked(bytes.data(), bytes.size(), &message)) return false;
-  *keyframe = {message.utime, message.seq, message.width, message.height, {}, {}};
-  keyframe->surface = message.surface;
-  for (int k = 0; k < message.n_imu; ++k) {
-    keyframe->imu.push_back({message.imu_utime[k], Eigen::Vector3d(message.gyro[k].data()),
-                             Eigen::Vector3d(message.accel[k].data())});
-  }
+  *keyframe = {message.utime,  message.seq,     message.width,
+               message.height, message.surface, SamplesOf(message)};
   return true;
 }
 
 BodyState StateOf(const node_state_t& node) {
   BodyState state;
-  const double* q = node.orientation;
-  state.T_map_body = {Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(),
-                      Eigen::Vector3d(node.position)};
+  state.T_map_body = PoseOf(node);
   state.velocity = Eigen::Vector3d(node.velocity);
   state.bias = {Eigen::Vector3d(node.gyro_bias), Eigen::Vector3d(node.accel_bias)};
   return state;

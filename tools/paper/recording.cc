@@ -44,7 +44,7 @@ PaperJob PhotometricJob(const Recording& recording, const std::string& images) {
 }
 
 Recording SimulatedRecording(const paper::Paper& config, const paper::Sequence& sequence,
-                    const RecordingOptions& options, int seed) {
+                             const RecordingOptions& options, int seed) {
   Recording r;
   r.sequence = &sequence;
   r.seed = seed;
@@ -152,7 +152,8 @@ std::vector<Recording> RecordingsOf(const paper::Paper& config, const paper::Seq
       return {Recorded(config, sequence, options, *files)};
   }
   std::vector<Recording> all;
-  for (int seed = 1; seed <= options.seeds; ++seed) all.push_back(SimulatedRecording(config, sequence, options, seed));
+  for (int seed = 1; seed <= options.seeds; ++seed)
+    all.push_back(SimulatedRecording(config, sequence, options, seed));
   return all;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/geometry/rig.h"
-#include "common/map/visibility.h"
+#include "common/map/map_index.h"
 #include "tools/paper/keyframe_log.h"
 
 namespace evit::paper {

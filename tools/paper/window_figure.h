@@ -3,7 +3,7 @@
 #include <string>
 
 #include "common/geometry/rig.h"
-#include "common/map/visibility.h"
+#include "common/map/map_index.h"
 #include "tools/paper/keyframe_log.h"
 
 namespace evit::paper {

@@ -3,15 +3,12 @@
 #include <algorithm>
 
 #include "common/bus/codec.h"
+#include "common/wire/geometry_wire.h"
 
 namespace evit::run {
 namespace {
 
-StampedPose PoseOf(const node_state_t& node) {
-  const double* q = node.orientation;
-  return {node.utime,
-          {Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(), Eigen::Vector3d(node.position)}};
-}
+StampedPose StampedPoseOf(const node_state_t& node) { return {node.utime, PoseOf(node)}; }
 
 Matrix6d CovarianceOf(const window_state_t& message) {
   Matrix6d covariance;
@@ -44,7 +41,7 @@ Recorder::Recorder(Bus* bus, const Channels& channels) {
 void Recorder::OnWindow(const window_state_t& message) {
   if (message.node.empty()) return;
   active_ = true;
-  const StampedPose newest = PoseOf(message.node.back());
+  const StampedPose newest = StampedPoseOf(message.node.back());
   if (online_.empty() || newest.t > online_.back().t) {
     online_.push_back(newest);
     covariances_.push_back({newest.t, CovarianceOf(message)});
@@ -56,7 +53,7 @@ void Recorder::OnWindow(const window_state_t& message) {
     if (left_.empty() || window_.begin()->second.t > left_.back().t) left_.push_back(window_.begin()->second);
     window_.erase(window_.begin());
   }
-  for (const node_state_t& node : message.node) window_[node.utime] = PoseOf(node);
+  for (const node_state_t& node : message.node) window_[node.utime] = StampedPoseOf(node);
 }
 
 void Recorder::OnMode(const tracker_mode_t& message) {

@@ -8,6 +8,7 @@
 #include "common/bus/codec.h"
 #include "common/bus/limits.h"
 #include "common/service/status_reporter.h"
+#include "common/wire/geometry_wire.h"
 
 namespace evit::run {
 
@@ -33,8 +34,7 @@ void Remote::HintPose(const SE3& T_map_body) {
   hint.utime = HostTime();
   hint.epoch = epoch_;
   hint.seq = hint_seq_++;
-  for (int k = 0; k < 3; ++k) hint.position[k] = T_map_body.p[k];
-  for (int k = 0; k < 4; ++k) hint.orientation[k] = T_map_body.q.coeffs()[k];
+  PutPose(T_map_body, &hint);
   std::vector<std::uint8_t> bytes;
   EncodeTo(hint, &bytes);
   bus_->Publish(channels_.pose_hint, bytes.data(), bytes.size());

@@ -1,4 +1,5 @@
-// message_generator HEADER SOURCE FILE.lcm ...: writes what common/bus/codec needs to know of a package's messages.
+// message_generator HEADER SOURCE FILE.lcm ...: writes what common/bus/codec needs to know of a package's
+// messages.
 #include <cstdio>
 #include <exception>
 #include <fstream>

@@ -14,9 +14,9 @@ namespace evit::generator {
 namespace {
 
 const std::map<std::string, std::int64_t>& PrimitiveSizes() {
-  static const std::map<std::string, std::int64_t> sizes{
-      {"int8_t", 1},  {"byte", 1},  {"boolean", 1}, {"int16_t", 2},
-      {"int32_t", 4}, {"float", 4}, {"int64_t", 8}, {"double", 8}};
+  static const std::map<std::string, std::int64_t> sizes{{"int8_t", 1},  {"byte", 1},    {"boolean", 1},
+                                                         {"int16_t", 2}, {"int32_t", 4}, {"float", 4},
+                                                         {"int64_t", 8}, {"double", 8}};
   return sizes;
 }
 
@@ -70,7 +70,8 @@ std::vector<std::string> Counts(const MessageType& type, const Field& field, std
       *fixed *= d.size;
       continue;
     }
-    if (counts.size() != i || i > 1) Fail(type, field, "may have counted dimensions only first, and two of them");
+    if (counts.size() != i || i > 1)
+      Fail(type, field, "may have counted dimensions only first, and two of them");
     counts.push_back(d.count);
   }
   return counts;
@@ -102,7 +103,8 @@ class LayoutWriter {
       } else if (field.dimensions.empty()) {
         Write(*inner, prefix + field.name + ".");
       } else {
-        if (fixed != 1 || counts.size() != 1) Fail(type, field, "may be one " + field.type + " or a counted list");
+        if (fixed != 1 || counts.size() != 1)
+          Fail(type, field, "may be one " + field.type + " or a counted list");
         Group(*inner, prefix + field.name + ".", counts[0]);
       }
     }
@@ -167,7 +169,8 @@ std::string VisitOf(const MessageType& type) {
     if (field.dimensions.size() > 2) Fail(type, field, "has more than two dimensions");
     const std::string columns =
         counts.size() == 2 ? "m." + counts[1] : std::to_string(field.dimensions[1].size);
-    body += "  for (auto& row : m." + field.name + ") visit(\"" + field.name + "[i]\", " + columns + ", row);\n";
+    body +=
+        "  for (auto& row : m." + field.name + ") visit(\"" + field.name + "[i]\", " + columns + ", row);\n";
   }
   const bool used = !body.empty();
   return "template <typename Message, typename Visitor>\nvoid VisitArraysOf(const " + type.name +

@@ -94,7 +94,9 @@ TEST(MessageCode, WhatTheChecksCannotDoIsAnError) {
   EXPECT_THAT(ErrorOf([] { LayoutsSource(Changed("float weight", "matrix_t weight")); }),
               HasSubstr("unknown type matrix_t"));
   const std::string list = "package p;\nstruct point_t {\n  int32_t n; // at most 2\n  byte b[n];\n}\n";
-  EXPECT_THAT(ErrorOf([&] { LayoutsSource({ParseLcm(kCloud, "c"), ParseLcm(list, "point_t.lcm")}); }),
+  EXPECT_THAT(ErrorOf([&] {
+                LayoutsSource({ParseLcm(kCloud, "c"), ParseLcm(list, "point_t.lcm")});
+              }),
               HasSubstr("point_t.lcm:3: n counts an array inside another type"));
 }
 

@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "common/bus/codec.h"
-#include "common/events/wire/event_wire.h"
+#include "common/wire/event_wire.h"
+#include "common/wire/geometry_wire.h"
+#include "common/wire/imu_wire.h"
 
 namespace evit::formats {
 namespace {
@@ -31,14 +33,9 @@ void StreamWriter::WriteOthers(Utime until) {
     if (!has_imu && !has_truth) return;
     if (has_imu && (!has_truth || imu_[next_imu_].t <= truth_[next_truth_].t)) {
       const ImuSample& s = imu_[next_imu_];
-      imu_batch_t m{};
-      m.utime = s.t;
+      imu_batch_t m = ToMessage(s);
       m.seq = static_cast<std::int64_t>(next_imu_++);
       m.epoch = epoch_;
-      m.n = 1;
-      m.sample_utime = {s.t};
-      m.gyro = {{s.gyro.x(), s.gyro.y(), s.gyro.z()}};
-      m.accel = {{s.accel.x(), s.accel.y(), s.accel.z()}};
       Write(s.t, channels_.imu, m);
     } else {
       const StampedPose& s = truth_[next_truth_];
@@ -46,8 +43,7 @@ void StreamWriter::WriteOthers(Utime until) {
       m.utime = s.t;
       m.seq = static_cast<std::int64_t>(next_truth_++);
       m.epoch = epoch_;
-      std::copy_n(s.pose.p.data(), 3, m.position);
-      std::copy_n(s.pose.q.coeffs().data(), 4, m.orientation);
+      PutPose(s.pose, &m);
       Write(s.t, channels_.ground_truth, m);
     }
   }

@@ -13,7 +13,7 @@
 #include "common/bus/log_file.h"
 #include "common/evaluation/decimal_time.h"
 #include "common/evaluation/trajectory.h"
-#include "common/events/wire/event_wire.h"
+#include "common/wire/event_wire.h"
 #include "tools/formats/vector/event_file.h"
 
 namespace evit::formats {

@@ -3,22 +3,15 @@
 #include "common/tracking/tracker.h"
 #include "evit/body_pose_t.hpp"
 #include "evit/keyframe_t.hpp"
-#include "evit/map_points_t.hpp"
-#include "evit/map_query_t.hpp"
 #include "evit/tracker_mode_t.hpp"
 #include "evit/window_state_t.hpp"
 
-/// Between what is on the bus and what the tracker takes and gives. All fields of incoming messages are
-/// checked before (DecodeChecked); seq and epoch are the caller's.
+/// What the tracker takes and what it gives, as messages. Incoming messages must have been checked
+/// (DecodeChecked); seq and epoch are the caller's.
 namespace evit {
 
 /// The input shares no memory with the message.
 KeyframeInput FromMessage(const keyframe_t& message);
-
-map_query_t ToMessage(const VisibilityQuery& query);
-
-/// Points of an answer, map frame.
-std::vector<Eigen::Vector3f> PointsOf(const map_points_t& message);
 
 /// utime, keyframe_seq, mode, nodes, covariance and figures of the newest keyframe.
 window_state_t ToWindowState(const TrackerOutput& output);

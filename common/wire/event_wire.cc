@@ -1,4 +1,4 @@
-#include "common/events/wire/event_wire.h"
+#include "common/wire/event_wire.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "common/photometric/wire/view_wire.h"
+#include "common/wire/view_wire.h"
 
 #include <gtest/gtest.h>
 

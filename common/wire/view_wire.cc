@@ -1,7 +1,9 @@
-#include "common/photometric/wire/view_wire.h"
+#include "common/wire/view_wire.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "common/wire/geometry_wire.h"
 
 namespace evit {
 namespace {
@@ -13,15 +15,8 @@ constexpr double kMost = 65535;  // the largest inverse depth there is
 
 view_query_t ToMessage(const ViewQuery& q) {
   view_query_t m{};
-  std::copy_n(q.T_map_camera.p.data(), 3, m.position);
-  std::copy_n(q.T_map_camera.q.coeffs().data(), 4, m.orientation);
-  m.camera.model = CameraModelName(q.camera.model);
-  m.camera.width = q.camera.width;
-  m.camera.height = q.camera.height;
-  m.camera.fx = q.camera.fx;
-  m.camera.fy = q.camera.fy;
-  m.camera.cx = q.camera.cx;
-  m.camera.cy = q.camera.cy;
+  PutPose(q.T_map_camera, &m);
+  m.camera = ToMessage(q.camera);
   m.min_depth = q.min_depth;
   m.max_depth = q.max_depth;
   return m;
@@ -29,14 +24,9 @@ view_query_t ToMessage(const ViewQuery& q) {
 
 ViewQuery FromMessage(const view_query_t& m) {
   ViewQuery q;
-  const double* const r = m.orientation;
-  q.T_map_camera = {Eigen::Quaterniond(r[3], r[0], r[1], r[2]).normalized(), Eigen::Vector3d(m.position)};
-  q.camera.width = m.camera.width;
-  q.camera.height = m.camera.height;
-  q.camera.fx = m.camera.fx;
-  q.camera.fy = m.camera.fy;
-  q.camera.cx = m.camera.cx;
-  q.camera.cy = m.camera.cy;
+  q.T_map_camera = PoseOf(m);
+  q.camera = FromMessage(m.camera);
+  q.camera.model = Camera::Model::kPlumbBob;  // without distortion: a plain pinhole
   q.min_depth = m.min_depth;
   q.max_depth = m.max_depth;
   return q;
