@@ -4,7 +4,7 @@
 
 namespace evit::bench {
 
-/// Items per second, with what is wanted of them and the memory each moves at least.
+/// Items per second, with their target and the memory that each moves at least.
 inline void PerSecond(benchmark::State& state, double items_per_iteration, double target,
                       double bytes_per_item) {
   state.counters["items/s"] =
@@ -13,7 +13,7 @@ inline void PerSecond(benchmark::State& state, double items_per_iteration, doubl
   state.counters["bytes_per_item"] = bytes_per_item;
 }
 
-/// Seconds per call, with what is wanted and the memory a call moves at least.
+/// Seconds per call, with their target and the memory that a call moves at least.
 inline void PerCall(benchmark::State& state, double target_seconds, double bytes) {
   state.counters["target_s"] = target_seconds;
   state.counters["bytes"] = bytes;

@@ -22,7 +22,7 @@ __attribute__((format(printf, 1, 2))) std::string Text(const char* format, ...) 
 json Load(const std::string& path) {
   std::ifstream file(path);
   json parsed = json::parse(file, nullptr, false);
-  if (parsed.is_discarded()) throw std::runtime_error(path + ": cannot be read, or is no JSON");
+  if (parsed.is_discarded()) throw std::runtime_error(path + ": cannot be read as JSON");
   return parsed;
 }
 
@@ -76,7 +76,7 @@ std::string MicroTable(const Results& results) {
   const json* memory = Find(results, "Memory/main");
   const double bandwidth = memory == nullptr ? 0 : Number(*memory, "bytes/s");
   std::string out =
-      "| one thread | ours | plain reference | ratio | wanted | bound |\n|---|---|---|---|---|---|\n";
+      "| one thread | ours | plain reference | ratio | target | bound |\n|---|---|---|---|---|---|\n";
   for (const json& row : results.rows) {
     const std::string name = NameOfOurs(row["name"]);
     if (name.empty()) continue;
@@ -180,7 +180,7 @@ Results LoadResults(const std::vector<std::string>& files, const std::vector<std
   }
   for (const std::string& run : runs) {
     const auto at = run.find('=');
-    if (at == std::string::npos) throw std::runtime_error("--run " + run + ": NAME=FILE is wanted");
+    if (at == std::string::npos) throw std::runtime_error("--run " + run + ": expected NAME=FILE");
     results.runs.emplace_back(run.substr(0, at), Load(run.substr(at + 1)));
   }
   return results;

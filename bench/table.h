@@ -17,7 +17,7 @@ struct Results {
   std::string ToJson() const;
 };
 
-/// Throws std::runtime_error naming a file that cannot be read or is no such JSON. `runs`: NAME=FILE.
+/// Throws std::runtime_error naming a file that cannot be read or is not such JSON. `runs`: NAME=FILE.
 Results LoadResults(const std::vector<std::string>& files, const std::vector<std::string>& runs,
                     const std::string& commit);
 

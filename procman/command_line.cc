@@ -106,7 +106,7 @@ class Splitter {
   bool in_word_ = false, quoted_ = false;
 };
 
-// The length of NAME in NAME=VALUE, 0 where it is no such word.
+// The length of NAME in NAME=VALUE, 0 where the word has another form.
 std::size_t NameLength(const std::string& word) {
   const std::size_t equals = word.find('=');
   if (equals == std::string::npos || std::isdigit(static_cast<unsigned char>(word[0])) != 0) return 0;

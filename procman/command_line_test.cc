@@ -28,7 +28,7 @@ TEST(CommandLineTest, SplitsLikeAShell) {
   EXPECT_THAT(Split(R"(--x="1 2"3)").words, ElementsAre("--x=1 23"));
 }
 
-TEST(CommandLineTest, PutsVariablesIn) {
+TEST(CommandLineTest, ExpandsVariables) {
   EXPECT_THAT(Split("m $MAP").words, ElementsAre("m", "a", "map.pcd"));
   EXPECT_THAT(Split("m \"${MAP}x\" '${MAP}' ${EMPTY} \"$EMPTY\"").words,
               ElementsAre("m", "a map.pcdx", "${MAP}", ""));
@@ -43,13 +43,13 @@ TEST(CommandLineTest, EnvironmentComesBeforeTheProgram) {
   EXPECT_THAT(Split("./a=b c").words, ElementsAre("./a=b", "c"));
 }
 
-TEST(CommandLineTest, RefusesWhatIsOpenOrEmpty) {
+TEST(CommandLineTest, OpenQuotesAndEmptyLinesAreErrors) {
   for (const char* bad : {"a 'b", "a \"b", "a \\", "a ${B", "a $", "", "  ", "A=1"}) {
     EXPECT_THROW(Split(bad), std::runtime_error) << bad;
   }
 }
 
-TEST(CommandLineTest, JoinedWordsComeApartTheSame) {
+TEST(CommandLineTest, JoinAndSplitRoundTrip) {
   const std::vector<std::string> words{"a=b", "-x", "", "it's", "a b", "\"q\"", "$HOME", "back\\slash"};
   const CommandLine line = Split(JoinCommandLine(words));
   EXPECT_EQ(line.words, words);

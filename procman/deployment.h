@@ -11,7 +11,7 @@ struct ProcmanCommand {
   std::string exec;              // command line, see SplitCommandLine
   std::string deputy;            // who runs it
   std::string group;             // "a/b": group b inside group a; empty: none
-  bool auto_respawn = false;     // started again when it ends by itself
+  bool auto_respawn = false;     // restarted when it ends by itself
   int stop_signal = 2;           // SIGINT
   double stop_time_allowed = 7;  // s from that signal to SIGKILL
 };
@@ -22,7 +22,7 @@ struct ScriptStep {
   Kind kind = Kind::kStart;
   bool whole_group = false;  // target is a group
   std::string target;        // command, group or script
-  std::string wait;          // "running", "stopped"; empty: go on at once
+  std::string wait;          // "running", "stopped"; empty: do not wait
   int wait_ms = 0;           // kWaitMs
 };
 
@@ -49,10 +49,5 @@ Deployment ParseDeployment(const std::string& text, const std::string& file);
 
 /// The same from a file.
 Deployment LoadDeployment(const std::string& path);
-
-enum class ProcmanDialect { kProcman, kBotProcman };
-
-/// As text, which ParseDeployment reads again to the same deployment. Comments are not kept.
-std::string WriteDeployment(const Deployment& deployment, ProcmanDialect dialect);
 
 }  // namespace evit::procman

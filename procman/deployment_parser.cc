@@ -200,12 +200,12 @@ class ScriptChecker {
     if (step.kind == ScriptStep::Kind::kWaitMs) return;
     if (step.kind == ScriptStep::Kind::kRunScript) {
       const ProcmanScript* inner = deployment_.FindScript(step.target);
-      if (inner == nullptr) Fail(script, "runs script \"" + step.target + "\", which is not there");
+      if (inner == nullptr) Fail(script, "runs script \"" + step.target + "\", which does not exist");
       Check(*inner);
     } else if (step.whole_group ? deployment_.Targets(step).empty()
                                 : deployment_.Find(step.target) == nullptr) {
       Fail(script, std::string("means ") + (step.whole_group ? "group" : "command") + " \"" + step.target +
-                       "\", which is not there");
+                       "\", which does not exist");
     }
   }
 
@@ -230,7 +230,7 @@ Deployment ParseDeployment(const std::string& text, const std::string& file) {
 Deployment LoadDeployment(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file)
-    throw std::runtime_error(path + ": cannot be read; a procman file is wanted, e.g. procman/evit.procman");
+    throw std::runtime_error(path + ": cannot be read; expected a procman file such as procman/evit.procman");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   return ParseDeployment(text, path);
 }

@@ -84,7 +84,7 @@ class DeputyTest : public ProgramsTest {
   std::map<std::string, std::string> said_;
 };
 
-TEST_F(DeputyTest, SaysHowItIsAndWhatIsSaid) {
+TEST_F(DeputyTest, PublishesInfoAndOutput) {
   deputy_->supervisor().Start("a");
   ASSERT_TRUE(StepUntil([&] { return said_["a"] == "here \n"; }));
   ASSERT_EQ(info_.cmds.size(), 2U);
@@ -121,12 +121,12 @@ TEST_F(DeputyTest, ObeysOrdersForItsOwnCommandsOnly) {
   EXPECT_FALSE(std::filesystem::exists("/tmp/evit_from_the_bus"));
 }
 
-TEST_F(DeputyTest, GarbageIsDroppedAndSaid) {
+TEST_F(DeputyTest, MalformedOrdersAreDroppedAndReported) {
   bus_->Publish(kPmOrders, "garbage", 7);
   ASSERT_TRUE(StepUntil([&] { return said_[""].find("PM_ORDERS was dropped") != std::string::npos; }));
 }
 
-TEST_F(DeputyTest, ATalkerIsCutShortOnTheBusButNotInItsLog) {
+TEST_F(DeputyTest, OutputIsLimitedOnTheBusButNotInTheLog) {
   deputy_->supervisor().Start("talks");
   ASSERT_TRUE(StepUntil([&] { return Text("talks.log").size() > 150'000; }));
   EXPECT_LE(said_["talks"].size(), 2U * 65536);
@@ -154,7 +154,7 @@ class SteppedBus : public Bus {
   std::function<void()> step_;
 };
 
-TEST_F(DeputyTest, TheSheriffSeesAndCommands) {
+TEST_F(DeputyTest, SheriffListsAndCommands) {
   SteppedBus bus(OpenMemoryBus(hub_), [this] { Step(); });
   Sheriff sheriff(&bus);
   sheriff.Give(Sheriff::Order::kStart, "a", 5s);
@@ -168,11 +168,11 @@ TEST_F(DeputyTest, TheSheriffSeesAndCommands) {
               ThrowsMessage<std::runtime_error>(HasSubstr("there are: a, talks")));
 }
 
-TEST(SheriffTest, SaysThatNobodyAnswers) {
+TEST(SheriffTest, MissingDeputyIsReported) {
   const auto bus = OpenMemoryBus(MakeMemoryHub());
   Sheriff sheriff(bus.get());
   EXPECT_THAT([&] { sheriff.Give(Sheriff::Order::kStop, "a", 300ms); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("no deputy answers")));
+              ThrowsMessage<std::runtime_error>(HasSubstr("no deputy answered")));
 }
 
 }  // namespace

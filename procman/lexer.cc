@@ -57,7 +57,7 @@ class Lexer {
     Token token{Token::Kind::kText, "", line_};
     for (++at_; at_ < text_.size() && text_[at_] != '"'; ++at_) {
       char c = text_[at_];
-      if (c == '\n') Fail("a text is not closed by \" on its line");
+      if (c == '\n') Fail("a quoted text is not closed by \" on its line");
       if (c == '\\' && at_ + 1 < text_.size()) {
         const char next = text_[at_ + 1];
         // Other backslashes belong to the command line, which has its own quoting.
@@ -71,7 +71,7 @@ class Lexer {
       }
       token.text += c;
     }
-    if (at_ == text_.size()) Fail("a text is not closed by \" before the end of the file");
+    if (at_ == text_.size()) Fail("a quoted text is not closed by \" before the end of the file");
     ++at_;
     return token;
   }

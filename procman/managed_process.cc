@@ -113,7 +113,7 @@ void ManagedProcess::ReadOutput() {
     if (n <= 0) return;
     taken += static_cast<int>(n);
     const std::string text(buffer.data(), static_cast<std::size_t>(n));
-    // A full disk must not stop the command: what it said then is lost in the file alone.
+    // A full disk must not stop the command: only the copy of this output in the file is lost.
     if (log_ >= 0 && write(log_, text.data(), text.size()) < 0) errno = 0;
     last_words_ += text;
     if (last_words_.size() > kWords) last_words_.erase(0, last_words_.size() - kWords);

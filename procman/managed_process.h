@@ -17,7 +17,7 @@ namespace evit::procman {
 class ManagedProcess {
  public:
   using Clock = std::chrono::steady_clock;
-  /// What it said on stdout or stderr, or what there is to say of it.
+  /// Receives its output (stdout and stderr), and messages about it.
   using Sink = std::function<void(const std::string& id, const std::string& text)>;
 
   struct Places {
@@ -63,7 +63,7 @@ class ManagedProcess {
   /// CPU seconds and peak memory (MB) of all ended runs.
   double cpu_seconds() const { return cpu_seconds_; }
   double peak_mb() const { return peak_mb_; }
-  /// The last lines it said.
+  /// The last lines of its output.
   std::string LastWords(int lines = 3) const;
 
  private:
@@ -87,7 +87,7 @@ class ManagedProcess {
   Clock::time_point started_, kill_at_, start_at_;
   std::chrono::milliseconds delay_{0};
   double cpu_seconds_ = 0, peak_mb_ = 0;
-  std::string last_words_;  // the end of what it said
+  std::string last_words_;  // the end of its output
 };
 
 }  // namespace evit::procman

@@ -20,7 +20,7 @@ bool Executable(const std::string& path) { return access(path.c_str(), X_OK) == 
 std::string FindProgram(const std::string& name, const std::string& folder) {
   if (name.find('/') != std::string::npos) {
     if (Executable(name)) return name;
-    throw std::runtime_error(name + ": there is no such program; build it first");
+    throw std::runtime_error(name + ": no such program; build it first");
   }
   const char* path = std::getenv("PATH");
   const std::string folders = folder + ":" + (path == nullptr ? "/usr/bin:/bin" : path);
@@ -30,7 +30,7 @@ std::string FindProgram(const std::string& name, const std::string& folder) {
     if (end > begin && Executable(candidate)) return candidate;
     begin = end + 1;
   }
-  throw std::runtime_error("there is no such program as " + name + (folder.empty() ? "" : " in " + folder) +
+  throw std::runtime_error("no such program as " + name + (folder.empty() ? "" : " in " + folder) +
                            " or on PATH; build it first");
 }
 

@@ -40,7 +40,7 @@ class ManagedProcessTest : public ProgramsTest {
   std::string said_;
 };
 
-TEST_F(ManagedProcessTest, RunsIsAskedToStopAndLeavesALog) {
+TEST_F(ManagedProcessTest, StopEndsItAndKeepsItsLog) {
   Program("a", kWaits);
   const auto p = Make(Command("X=1 a --x \"1 2\""));
   EXPECT_EQ(p->end(), "never started");
@@ -57,7 +57,7 @@ TEST_F(ManagedProcessTest, RunsIsAskedToStopAndLeavesALog) {
   EXPECT_GT(p->peak_mb(), 0);
 }
 
-TEST_F(ManagedProcessTest, DeathIsSaidWithLastWords) {
+TEST_F(ManagedProcessTest, DeathIsReportedWithTheLastOutput) {
   Program("a", "echo first; echo second; echo the disk is on fire >&2; exit 7");
   const auto p = Make(Command("a"));
   p->Start();
@@ -95,7 +95,7 @@ TEST_F(ManagedProcessTest, IsStartedAgainWithGrowingDelay) {
   EXPECT_EQ(p->runs(), runs);
 }
 
-TEST_F(ManagedProcessTest, KilledOnceItIsBackWithinMilliseconds) {
+TEST_F(ManagedProcessTest, RestartsWithinMillisecondsAfterAKill) {
   Program("a", kWaits);
   const auto p = Make(Command("a", true));
   p->Start();
@@ -107,7 +107,7 @@ TEST_F(ManagedProcessTest, KilledOnceItIsBackWithinMilliseconds) {
   EXPECT_TRUE(Said("died with signal 9 (Killed); starting it again in 10 ms"));
 }
 
-TEST_F(ManagedProcessTest, StubbornOneIsKilled) {
+TEST_F(ManagedProcessTest, ProcessThatIgnoresSignalsIsKilled) {
   Program("a", "trap '' INT TERM; echo here; while :; do sleep 0.02; done");
   const auto p = Make(Command("a", true, 0));
   p->Start();
@@ -137,7 +137,7 @@ TEST_F(ManagedProcessTest, MissingProgramAndVariableAreNamed) {
               ThrowsMessage<std::runtime_error>(HasSubstr("EVIT_NONE")));
 }
 
-TEST_F(ManagedProcessTest, WhatAWrapperStartedGoesWithIt) {
+TEST_F(ManagedProcessTest, ChildrenOfAWrapperAreStopped) {
   Program("a", "sleep 60 & echo $! > child; wait");
   const auto p = Make(Command("env -C " + folder_.string() + " " + folder_.string() + "/a"));
   p->Start();
@@ -148,7 +148,7 @@ TEST_F(ManagedProcessTest, WhatAWrapperStartedGoesWithIt) {
   EXPECT_TRUE(Within(2s, [&] { return Gone(child); }));
 }
 
-TEST_F(ManagedProcessTest, NoneOutlivesAKilledParent) {
+TEST_F(ManagedProcessTest, ProcessesDieWithAKilledParent) {
   Program("a", kWaits);
   const std::string pid_file = (folder_ / "pid").string();
   const pid_t parent = fork();

@@ -77,7 +77,7 @@ std::string Sheriff::DeputyOf(const std::string& id) const {
     found = deputy;
   }
   if (deputies_.empty()) {
-    throw std::runtime_error("no deputy answers: is `evit run` or `evit up` running, on the same LCM URL?");
+    throw std::runtime_error("no deputy answered; is `evit run` or `evit up` running on the same LCM URL?");
   }
   if (found.empty()) throw std::runtime_error("there is no command \"" + id + "\"; there are: " + known);
   return found;
@@ -102,15 +102,15 @@ void Sheriff::Give(Order order, const std::string& id, std::chrono::milliseconds
     return order == Order::kStop ? now->pid == 0 : now->pid != 0 && now->pid != before.pid;
   };
   const auto end = Clock::now() + longest;
-  auto told = Clock::time_point();
+  auto sent = Clock::time_point();
   while (!obeyed()) {
     if (Clock::now() > end)
       throw std::runtime_error(deputy + " does not obey; `evit logs " + id + "` may say why");
-    if (Clock::now() - told > kRepeat) {
+    if (Clock::now() - sent > kRepeat) {
       orders.utime = HostMicroseconds();
       const std::vector<std::uint8_t> bytes = EncodeProcman(orders);
       bus_->Publish(kPmOrders, bytes.data(), bytes.size());
-      told = Clock::now();
+      sent = Clock::now();
     }
     bus_->Poll(20);
   }

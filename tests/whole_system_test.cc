@@ -117,7 +117,7 @@ class WholeSystemTest : public ::testing::Test {
   fs::path folder_;
 };
 
-TEST_F(WholeSystemTest, TracksTheSampleLogBitIdenticallyEveryTime) {
+TEST_F(WholeSystemTest, TracksTheSampleLogBitIdentically) {
   for (const char* out : {"a", "b"}) {
     const Result result = Shell(RunCommand(out));
     ASSERT_EQ(result.code, 0) << result.output;
@@ -147,8 +147,8 @@ TEST_F(WholeSystemTest, TracksInRealTime) {
   ExpectGood(Path("live/trajectory.tum"), 0.02, 0.8);
 }
 
-TEST_F(WholeSystemTest, SurvivesItsMapServer) {
-  // Killed again and again while the run goes on: it is started anew, and the result is the same.
+TEST_F(WholeSystemTest, SurvivesMapServerCrashes) {
+  // Killed repeatedly during the run: it is restarted each time, and the result is the same.
   std::thread killer([this] {
     for (int k = 0; k < 3; ++k) {
       std::this_thread::sleep_for(kSlower * std::chrono::milliseconds(250));
@@ -162,7 +162,7 @@ TEST_F(WholeSystemTest, SurvivesItsMapServer) {
   ExpectGood(Path("killed/trajectory.tum"), 0.015, 0.6);
 }
 
-TEST_F(WholeSystemTest, ARunCanBeLookedAtAndCommanded) {
+TEST_F(WholeSystemTest, RunningPipelineCanBeListedAndCommanded) {
   std::thread run([&] { EXPECT_EQ(Shell(RunCommand("out", kRealTime)).code, 0); });
   std::this_thread::sleep_for(kSlower * std::chrono::milliseconds(700));
   const std::string evit = "XDG_RUNTIME_DIR=" + folder_.string() + " " + kEvit + " ";
@@ -180,18 +180,18 @@ TEST_F(WholeSystemTest, ARunCanBeLookedAtAndCommanded) {
   EXPECT_THAT(wrong.output, HasSubstr("no command \"windows\"; there are: map_server, window_optimizer"));
   run.join();
   ExpectGood(Path("out/trajectory.tum"), 0.02, 0.8);
-  EXPECT_EQ(Restarts("out"), 0);  // ordered ones are no deaths
+  EXPECT_EQ(Restarts("out"), 0);  // ordered restarts are not deaths
   EXPECT_THAT(Shell(evit + "ps").output, HasSubstr("neither `evit run` nor `evit up` is running"));
 }
 
-TEST_F(WholeSystemTest, SurvivesItsLogReplayInRealTime) { KillInRealTime("log_replay"); }
+TEST_F(WholeSystemTest, SurvivesLogReplayCrashInRealTime) { KillInRealTime("log_replay"); }
 
-TEST_F(WholeSystemTest, SurvivesItsFrameBuilderInRealTime) { KillInRealTime("frame_builder"); }
+TEST_F(WholeSystemTest, SurvivesFrameBuilderCrashInRealTime) { KillInRealTime("frame_builder"); }
 
-TEST_F(WholeSystemTest, SurvivesItsOptimizerInRealTime) { KillInRealTime("window_optimizer"); }
+TEST_F(WholeSystemTest, SurvivesOptimizerCrashInRealTime) { KillInRealTime("window_optimizer"); }
 
-TEST_F(WholeSystemTest, LcmToolsPlayAndRecord) {
-  // The stock player feeds the three other services; the stock logger records what they say.
+TEST_F(WholeSystemTest, LcmToolsCanPlayAndRecord) {
+  // The stock player feeds the three other services; the stock logger records their messages.
   const std::string bin = std::string(EVIT_BIN_DIR) + "/",
                     rig = " --rig " + kLogs + "rig.textproto --config " + std::string(EVIT_SOURCE_DIR) +
                           "/config/tracker.textproto";
@@ -211,7 +211,7 @@ TEST_F(WholeSystemTest, LcmToolsPlayAndRecord) {
   EXPECT_GT(std::atoi(channels.output.c_str()), 20) << channels.output;
 }
 
-TEST_F(WholeSystemTest, BadInputIsNamedAndNothingIsLeftBehind) {
+TEST_F(WholeSystemTest, BadInputIsNamedAndLeavesNothingBehind) {
   std::ofstream(Path("empty.pcd"))
       << "# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 0\nHEIGHT "
          "1\nPOINTS 0\nDATA ascii\n";

@@ -15,7 +15,7 @@
 
 namespace evit::test {
 
-/// Asks map_server, and keeps what it says.
+/// Sends queries to map_server and keeps the answers.
 class Asker {
  public:
   explicit Asker(Bus* bus, const std::string& prefix = "") : bus_(bus), channels_(prefix) {

@@ -65,7 +65,7 @@ std::string Direction(const Unobservable& u, const char* frame) {
 
 std::string Sentence(const Unobservable& u) {
   constexpr char kTurn[] = "turn faster, and about at least two axes";
-  constexpr char kKept[] = "the rig file's figure is kept";
+  constexpr char kKept[] = "the value of the rig file is kept";
   using Value = Unobservable::Value;
   switch (u.value) {
     case Value::kTranslation:
@@ -121,7 +121,7 @@ std::string CalibrationText(const Rig& before, const CameraImuCalibration& c) {
 
 std::string RigComment(const Rig& before, const CameraImuCalibration& c, const std::string& sources) {
   std::string text =
-      "T_body_camera and camera.time_offset_us by evit calibrate; all else is as it was.\n" + sources + "\n";
+      "T_body_camera and camera.time_offset_us by evit calibrate; all other values are unchanged.\n" + sources + "\n";
   for (const Row& row : Rows(before, c)) {
     if (!row.in_rig) continue;
     text += Format("  %s: %.3f, was %.3f, sigma %.3f\n", row.name.c_str(), row.after, row.before, row.sigma);

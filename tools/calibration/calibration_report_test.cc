@@ -62,7 +62,7 @@ TEST(CalibrationReport, RigFileHoldsWhatWasFoundAndWhereItIsFrom) {
   EXPECT_EQ(read.imu_noise.gyro_density, Before().imu_noise.gyro_density);
 }
 
-TEST(CalibrationReport, TiltIsToldWhereItIsSureAndTheMatrixTurnsTheMapUpright) {
+TEST(CalibrationReport, SignificantTiltIsReportedWithTheMatrixThatTurnsTheMapUpright) {
   CameraImuCalibration c = Found();
   const std::string advice = TiltAdvice(c, "a/desk.ply", {});
   EXPECT_THAT(advice,

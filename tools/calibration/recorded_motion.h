@@ -10,7 +10,7 @@
 namespace evit::calibration {
 
 /// The IMU samples of an LCM log in the order they were recorded; readings that are beyond the sensor's range
-/// by a tenth are left out, and what is no well-formed message. Throws std::runtime_error naming the file
+/// by a tenth are left out, and messages that are not well-formed. Throws std::runtime_error naming the file
 /// where there are none.
 std::vector<ImuSample> ReadImu(const std::string& log, const ImuNoise& limits);
 

@@ -26,15 +26,15 @@ struct CalibrateOptions {
 std::string Track(CalibrateOptions* o) {
   run::RunJob& job = o->job;
   if (o->pose.empty() && o->from.empty())
-    throw std::runtime_error("--initial-pose or --initial-from is wanted");
+    throw std::runtime_error("--initial-pose or --initial-from is required");
   if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
   job.initial_from = o->from;
   if (!o->seconds.empty()) job.seconds = ParseSeconds(o->seconds);
   if (job.config.empty()) job.config = DataFile("config/evt.textproto");
   if (LoadOptions(job.config).method != PipelineOptions::Method::kEvt) {
     throw std::runtime_error(job.config +
-                             ": evt { } is expected, as in config/evt.textproto: poses that used the IMU "
-                             "know the extrinsics already");
+                             ": expected evt { }, as in config/evt.textproto: poses that used the IMU already "
+                             "depend on the extrinsics");
   }
   if (job.out.empty()) job.out = o->out + ".evt";
   job.command = "evit calibrate";
@@ -76,22 +76,23 @@ void AddCalibrateCommand(CLI::App* app) {
   calibrate->add_option("--rig", o->job.rig, "Rig file to start from")->required();
   auto* pose =
       calibrate->add_option("--initial-pose", o->pose, "Body in the map at the start: \"x y z qx qy qz qw\"");
-  auto* from = calibrate->add_option("--initial-from", o->from, "Take it from this trajectory (TUM)");
+  auto* from = calibrate->add_option("--initial-from", o->from, "Take the pose from this trajectory (TUM)");
   pose->excludes(from);
   calibrate->add_option(
       "--poses", o->poses,
-      "OUT.evt/trajectory.tum of an earlier event-only run with the same rig file: not tracked again");
+      "OUT.evt/trajectory.tum of an earlier event-only run with the same rig file, instead of tracking again");
   calibrate->add_option("--out", o->out, "Rig file to write")->required();
-  calibrate->add_option("--seconds", o->seconds, "A:B, use only this part of the log");
+  calibrate->add_option("--seconds", o->seconds, "A:B in s, use only this part of the log");
   calibrate->add_option("--config", o->job.config, "Event-only tracking (default: config/evt.textproto)");
   calibrate->add_option("--work", o->job.out, "Folder for the event-only run (default: OUT.evt)");
   calibrate->footer(
-      "Ten to thirty seconds of lively hand-held motion, with turns about all three axes, in view of the "
-      "map;\n"
-      "lean the rig to 45 degrees and more, each way, to tell accelerometer bias from tilt of the map.\n"
-      "Camera intrinsics, IMU noise and gravity are taken from the rig file. What the motion does not show "
-      "is\n"
-      "named, and keeps the rig file's figure.");
+      "Record ten to thirty seconds of lively hand-held motion in view of the map, with rotation about all "
+      "three axes;\n"
+      "tilt the rig by 45 degrees or more in each direction, which separates accelerometer bias from a tilt of "
+      "the map.\n"
+      "Camera intrinsics, IMU noise and gravity are taken from the rig file. Values that the motion does not "
+      "make\n"
+      "observable are listed and keep the value of the rig file.");
   calibrate->callback([o] { Calibrate(o.get()); });
 }
 

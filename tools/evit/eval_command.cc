@@ -60,7 +60,7 @@ void Evaluate(const EvalOptions& o) {
   const TrajectoryError whole = AbsoluteError(truth, estimate, Alignment::kNone);
   if (whole.n_pairs == 0) {
     throw std::runtime_error(o.estimate + " and " + o.truth +
-                             " share no time: are they of the same sequence?");
+                             " do not overlap in time; are they from the same sequence?");
   }
   const TrajectoryError relative = RelativeError(truth, estimate, kMicrosPerSecond);
   Consistency consistency;
@@ -68,7 +68,7 @@ void Evaluate(const EvalOptions& o) {
     consistency = ConsistencyOf(truth, estimate, ReadCovariances(o.covariance));
     if (consistency.pose.n == 0) {
       throw std::runtime_error(o.covariance + " has no covariance for the poses of " + o.estimate +
-                               ": are they of the same run?");
+                               "; are they from the same run?");
     }
     if (!o.plot.empty()) pictures::PlotConsistency(o.plot, ConsistencyText(consistency), consistency);
   }

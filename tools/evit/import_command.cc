@@ -16,11 +16,11 @@ void PrintDropped(const formats::DropCounts& dropped, const char* what) {
 }  // namespace
 
 void ImportOptions::AddTo(CLI::App* source) {
-  source->add_option("--out", out, "Log to write; the body's truth goes to FILE.truth.tum")->required();
+  source->add_option("--out", out, "Log to write; the ground truth of the body is written to FILE.truth.tum")->required();
   source->add_option(
       "--T-map-world", transform,
-      "16 numbers, row-major 4x4: moves the ground truth's world into the map's frame (default: same)");
-  source->add_option("--seconds", seconds, "A:B, take only this part (seconds after the first event)");
+      "16 numbers, row-major 4x4, from the frame of the ground truth to that of the map (default: identity)");
+  source->add_option("--seconds", seconds, "A:B in s after the first event, take only this part");
 }
 
 void ImportOptions::Apply(formats::ImportTarget* target) const {
@@ -44,7 +44,7 @@ void RunImport(const std::string& label, const formats::ImportTarget& target, co
   PrintDropped(s.dropped_events, "events");
   PrintDropped(s.dropped_imu, "IMU samples");
   PrintDropped(s.dropped_truth, "truth poses");
-  if (s.n_truth == 0) std::printf("no ground truth (%s): runs cannot be scored\n", no_truth.c_str());
+  if (s.n_truth == 0) std::printf("no ground truth (%s): runs on it cannot be scored\n", no_truth.c_str());
 }
 
 void AddImportCommand(CLI::App* app) {

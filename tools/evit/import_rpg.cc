@@ -16,7 +16,7 @@ void ParseSize(const std::string& text, formats::RpgImport* job) {
   const int n = std::sscanf(text.c_str(), "%dx%d%c", &job->width, &job->height, &rest);
   const auto possible = [](int pixels) { return pixels >= 16 && pixels <= 8192; };
   if (n != 2 || !possible(job->width) || !possible(job->height))
-    throw std::runtime_error("--size " + text + ": WxH is wanted, 16 to 8192 pixels each, e.g. 346x260");
+    throw std::runtime_error("--size " + text + ": expected WxH, 16 to 8192 pixels each, e.g. 346x260");
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ void AddImportRpg(CLI::App* import) {
   rpg->add_option("--t-body-camera", o->pose,
                   "Camera in the body (IMU) frame: \"x y z qx qy qz qw\" (default: one frame)");
   rpg->add_flag("--truth-of-body", job.truth_of_body,
-                "groundtruth.txt tells of the body (IMU); without it, of the camera");
+                "groundtruth.txt holds poses of the body (IMU); without this flag, of the camera");
   auto* rig = rpg->add_option("--rig-out", job.rig_out, "Rig file to write, from calib.txt and what follows");
   ImuNoise& noise = job.imu_noise;
   for (const auto& [name, value, text] :

@@ -59,7 +59,7 @@ void AddMapCommand(CLI::App* app) {
     bool json = false;
   };
   auto o = std::make_shared<Options>();
-  CLI::App* map = app->add_subcommand("map", "Look at and convert semi-dense maps")->require_subcommand(1);
+  CLI::App* map = app->add_subcommand("map", "Inspect and convert semi-dense maps")->require_subcommand(1);
 
   CLI::App* convert =
       map->add_subcommand("import", "Convert a point cloud (PCD, PLY, text) to binary PCD, in metres, z up");
@@ -87,7 +87,7 @@ void AddMapCommand(CLI::App* app) {
   CLI::App* info = map->add_subcommand("info", "Points, bounds and spacing of a point cloud");
   info->add_option("FILE", o->in, "Point cloud to read")->required();
   info->add_flag("--json", o->json, "Machine-readable output");
-  info->add_option("--png", o->png, "Draw it as seen from above, coloured by height");
+  info->add_option("--png", o->png, "PNG to write: the map from above, coloured by height");
   info->callback([o] {
     const LoadedMap loaded = LoadMap(o->in);
     if (!o->png.empty()) pictures::WriteTopView(o->png, loaded.map);

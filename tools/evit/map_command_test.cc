@@ -45,7 +45,7 @@ std::string Cloud(double spacing) {
   return text;
 }
 
-TEST(MapCommandTest, MillimetresAreRefusedThenScaled) {
+TEST(MapCommandTest, MillimetresNeedScale) {
   const TemporaryFile in(Cloud(20), "mm.txt"), out("", "out.pcd");
   std::filesystem::remove(out.path());
   Result result = Map("import " + in.path() + " " + out.path());
@@ -71,7 +71,7 @@ TEST(MapCommandTest, VoxelsThinTheCloud) {
   EXPECT_EQ(LoadMap(out.path()).map.points.size(), 8u);
 }
 
-TEST(MapCommandTest, InfoForPeopleAndMachines) {
+TEST(MapCommandTest, InfoPrintsTextAndJson) {
   const TemporaryFile in(Cloud(0.02), "info.txt");
   Result result = Map("info " + in.path());
   EXPECT_EQ(result.code, 0);
@@ -83,7 +83,7 @@ TEST(MapCommandTest, InfoForPeopleAndMachines) {
   EXPECT_NEAR(json["max_m"][2].get<double>(), 0.18, 1e-4);
 }
 
-TEST(MapCommandTest, TopView) {
+TEST(MapCommandTest, TopViewIsDrawn) {
   const TemporaryFile in(Cloud(0.02), "view.txt"), out("", "view.png");
   std::filesystem::remove(out.path());
   EXPECT_EQ(Map("info " + in.path() + " --png " + out.path()).code, 0);
@@ -99,7 +99,7 @@ TEST(MapCommandTest, TopView) {
   EXPECT_THAT(result.output, HasSubstr("/nowhere/view.png"));
 }
 
-TEST(MapCommandTest, BadInput) {
+TEST(MapCommandTest, BadInputFails) {
   const TemporaryFile empty("", "empty.pcd"), in(Cloud(0.02), "in.txt");
   EXPECT_EQ(Map("info " + empty.path()).code, 1);
   EXPECT_EQ(Map("info /nowhere/map.pcd").code, 1);
@@ -110,7 +110,7 @@ TEST(MapCommandTest, BadInput) {
   EXPECT_THAT(result.output, HasSubstr("--transform"));
 }
 
-TEST(MapCommandTest, APhotometricMapThatCannotBeWrittenIsSaidBeforeTheWork) {
+TEST(MapCommandTest, PhotometricOutputIsCheckedBeforeFusing) {
   Result result = Map("photometric /nowhere --out /tmp/map.pcd");
   EXPECT_NE(result.code, 0);
   EXPECT_THAT(result.output, HasSubstr(".ply"));

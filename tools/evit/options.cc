@@ -12,7 +12,7 @@ std::pair<double, double> ParseSeconds(const std::string& text) {
   double a = 0, b = 0;
   char rest = 0;
   if (std::sscanf(text.c_str(), "%lf:%lf%c", &a, &b, &rest) != 2 || !(a >= 0 && b > a)) {
-    throw std::runtime_error("--seconds " + text + ": A:B is wanted, with 0 <= A < B");
+    throw std::runtime_error("--seconds " + text + ": expected A:B with 0 <= A < B");
   }
   return {a, b};
 }
@@ -22,7 +22,7 @@ SE3 ParseTransform(const std::string& option, const std::string& text) {
   Eigen::Matrix<double, 4, 4, Eigen::RowMajor> m;
   for (int k = 0; k < 16; ++k) {
     if (!(words >> m.data()[k]))
-      throw std::runtime_error(option + ": 16 numbers are wanted (4x4, row-major)");
+      throw std::runtime_error(option + ": expected 16 numbers (4x4, row-major)");
   }
   const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
   if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || R.determinant() < 0) {

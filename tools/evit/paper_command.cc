@@ -27,27 +27,28 @@ std::string SharedData() {
 void AddPaperCommand(CLI::App* app) {
   auto o = std::make_shared<paper::PaperOptions>();
   CLI::App* paper = app->add_subcommand("paper", "The paper's tables and figures, in one go");
-  paper->add_option("--out", o->out, "Folder for the results; what it holds already is not done again")
+  paper->add_option("--out", o->out, "Folder for the results; work it already contains is not repeated")
       ->required();
   paper->add_option("--vector", o->vector,
-                    "Folder of VECtor's files and maps; sequences that are not there are simulated");
+                    "Folder of VECtor's files and maps; sequences not found there are simulated");
   paper->add_option("--config", o->config, "What to run (default: config/paper.textproto)");
   paper->add_option(
       "--only", o->only,
       "Tables (I or normal, II or fast, III or motion_models), sequences and methods to run; the tables "
-      "still show all that is done");
+      "still show everything that is done");
   paper->add_option("--seeds", o->seeds, "Rooms of each simulated sequence (default: the configuration's)")
       ->check(CLI::Range(1, 99));
-  paper->add_flag("--quick", o->quick, "A try: one room, short clips");
-  paper->add_option("--jobs", o->jobs, "Simulations and runs at a time (default: 2)")
+  paper->add_flag("--quick", o->quick, "Quick trial: one room, short clips");
+  paper->add_option("--jobs", o->jobs, "Simulations and runs in parallel (default: 2)")
       ->check(CLI::Range(1, 64));
   paper->footer(
-      "Ctrl-C keeps all that is finished; the same command goes on from there. A simulation or run is done "
-      "anew only\n"
-      "when its inputs, its settings or the program changed. OUT/work may be deleted at any time.\n"
-      "Without --vector all is simulated (three rooms, 10 s): motion recorded with VECtor where the folder\n"
-      "EVIT_SHARED_DATA (default ../shared/data) has it, built-in motion where it has not. What runs is in\n"
-      "config/paper.textproto.\n"
+      "Ctrl-C keeps everything that is finished; the same command continues from there. A simulation or run "
+      "is repeated\n"
+      "only when its inputs, its settings or the program changed. OUT/work may be deleted at any time.\n"
+      "Without --vector everything is simulated (three rooms, 10 s), with motion recorded in VECtor if the "
+      "folder\n"
+      "EVIT_SHARED_DATA (default ../shared/data) contains it, and built-in motion otherwise.\n"
+      "config/paper.textproto lists what is run.\n"
       "Exit code: 0 all done, 1 something failed, 130 interrupted.");
   paper->callback([o] {
     if (o->config.empty()) o->config = DataFile("config/paper.textproto");

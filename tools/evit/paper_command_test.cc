@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(PaperCommand, SimulatesTracksScoresAndDrawsAndThenHasNothingToDo) {
+TEST(PaperCommand, ProducesTablesAndFiguresOnce) {
   const TestFolder folder("paper_command");
   const std::string config = EVIT_SOURCE_DIR "/config/";
   folder.Write("paper.textproto", "simulated_s: 2.5 quick_s: 2 seeds: 1 rig: \"" + config +
@@ -45,7 +45,7 @@ TEST(PaperCommand, SimulatesTracksScoresAndDrawsAndThenHasNothingToDo) {
   EXPECT_THAT(paper::ReadText(folder / "said"), HasSubstr("0 jobs done, 3 kept, 0 failed"));
 }
 
-TEST(PaperCommand, SaysWhatIsWrongBeforeAnythingIsDone) {
+TEST(PaperCommand, BadSelectionFailsBeforeAnyWork) {
   const TestFolder folder("paper_command_wrong");
   const std::string command = EVIT_BIN_DIR "/evit paper --only nowhere --out " + (folder / "out") + " >" +
                               (folder / "said") + " 2>&1";

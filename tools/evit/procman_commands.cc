@@ -27,7 +27,7 @@ std::unique_ptr<Bus> OpenBusOfPipeline(const std::string& lcm_url) {
   const auto running = run::FindRunning();
   if (own_choice && running) run::JoinNetworkOf(*running);
   if (own_choice && !running) {
-    throw std::runtime_error("neither `evit run` nor `evit up` is running here; another host's: --lcm-url");
+    throw std::runtime_error("neither `evit run` nor `evit up` is running on this host; give --lcm-url to reach another one");
   }
   return OpenLcmBus(ResolveLcmUrl(lcm_url));
 }
@@ -43,7 +43,7 @@ void Ps(const std::string& lcm_url) {
   procman::Sheriff sheriff(bus.get());
   const auto& deputies = sheriff.Look(kPatience);
   if (deputies.empty()) {
-    throw std::runtime_error("no deputy answers: is `evit run` or `evit up` running, on the same LCM URL?");
+    throw std::runtime_error("no deputy answered; is `evit run` or `evit up` running on the same LCM URL?");
   }
   std::printf("%-12s %-20s %-16s %8s %6s %9s\n", "DEPUTY", "COMMAND", "STATE", "PID", "CPU", "MEMORY");
   for (const auto& [name, info] : deputies) {
@@ -86,9 +86,9 @@ void Logs(const LogOptions& o) {
   for (const auto& [name, info] : sheriff.Look(kPatience)) {
     for (const auto& status : info.cmds) known = known || status.cmd.command_id == o.command;
   }
-  if (!known) throw std::runtime_error("there is no command \"" + o.command + "\"; evit ps lists them");
+  if (!known) throw std::runtime_error("there is no command \"" + o.command + "\"; evit ps lists the commands");
   if (!local && !o.follow) {
-    throw std::runtime_error("its log file is on another host: --follow shows what it says from now on");
+    throw std::runtime_error("its log file is on another host; --follow shows its output from now on");
   }
   sheriff.OnOutput([&](const procman_lcm::output_t& message) {
     if (message.command_id != o.command) return;
@@ -105,7 +105,7 @@ void AddOrder(CLI::App* app, const char* name, const char* help, procman::Sherif
   };
   auto o = std::make_shared<Options>();
   CLI::App* sub = app->add_subcommand(name, help);
-  sub->add_option("command", o->command, "its id, see evit ps")->required();
+  sub->add_option("command", o->command, "Its id, as listed by evit ps")->required();
   sub->add_option("--lcm-url", o->lcm_url, "Bus (default: that of the pipeline running here)");
   sub->callback([o, order] {
     const auto bus = OpenBusOfPipeline(o->lcm_url);
@@ -129,12 +129,12 @@ void AddProcmanCommands(CLI::App* app) {
            procman::Sheriff::Order::kRestart);
 
   auto o = std::make_shared<LogOptions>();
-  CLI::App* logs = app->add_subcommand("logs", "Show what a command of a running pipeline says (PM_OUTPUT)");
-  logs->add_option("command", o->command, "its id, see evit ps")->required();
-  logs->add_option("-n,--lines", o->lines, "lines of its log file")
+  CLI::App* logs = app->add_subcommand("logs", "Show the output of a command of a running pipeline (PM_OUTPUT)");
+  logs->add_option("command", o->command, "Its id, as listed by evit ps")->required();
+  logs->add_option("-n,--lines", o->lines, "Lines of its log file to print")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
-  logs->add_flag("-f,--follow", o->follow, "go on with what it says, until Ctrl-C");
+  logs->add_flag("-f,--follow", o->follow, "Keep printing new output until Ctrl-C");
   logs->add_option("--lcm-url", o->lcm_url, "Bus (default: that of the pipeline running here)");
   logs->callback([o] { Logs(*o); });
 }

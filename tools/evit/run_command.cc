@@ -23,27 +23,27 @@ void AddRunCommand(CLI::App* app) {
   run->add_option("--log", o->job.log, "LCM log with EVENTS and IMU (evit import)")->required();
   run->add_option("--map", o->job.map, "Semi-dense map: PCD, PLY or text, metres, z up");
   run->add_option("--photometric-map", o->job.photometric_map,
-                  "For method EVPT: PLY with intensities (evit map photometric); --map may be left out then");
+                  "For method EVPT: PLY with intensities (evit map photometric); --map is optional then");
   run->add_option("--rig", o->job.rig, "Calibration, e.g. config/vector/rig.textproto")->required();
   run->add_option("--config", o->job.config,
                   "Tracker settings, e.g. config/evt.textproto (default: EVIT's, see evit config show)");
   auto* pose =
       run->add_option("--initial-pose", o->pose, "Body in the map at the start: \"x y z qx qy qz qw\"");
   auto* from =
-      run->add_option("--initial-from", o->from, "Take it from this truth (TUM), and score against it");
+      run->add_option("--initial-from", o->from, "Take the pose from this ground truth (TUM), and score against it");
   pose->excludes(from);
   run->add_option("--truth", o->job.truth, "Truth (TUM) to score against");
   run->add_option("--out", o->job.out, "Folder for the results")->required();
   auto* realtime =
-      run->add_flag("--realtime", o->realtime, "Play in real time; nothing waits, what is lost is counted");
+      run->add_flag("--realtime", o->realtime, "Play in real time; nothing waits for slow services, losses are counted");
   run->add_flag("--lossless", o->lossless,
-                "As fast as everything is used, bit-identical every time (default)")
+                "As fast as the services can follow; bit-identical every time (default)")
       ->excludes(realtime);
-  run->add_option("--speed", o->job.speed, "With --realtime: x times faster")->check(CLI::PositiveNumber);
+  run->add_option("--speed", o->job.speed, "With --realtime: this many times faster")->check(CLI::PositiveNumber);
   run->add_option("--loops", o->job.loops,
-                  "With --realtime: play it so many times, and watch the memory (soak)")
+                  "With --realtime: play the log this many times and record the memory (soak test)")
       ->check(CLI::PositiveNumber);
-  run->add_option("--seconds", o->seconds, "A:B, play only this part of the log");
+  run->add_option("--seconds", o->seconds, "A:B in s, play only this part of the log");
   run->add_option("--record", o->job.record,
                   "LCM log to write the keyframes (surfaces, IMU) and windows to, 15 to 30 MB/s");
   run->add_option("--lcm-url", o->job.lcm_url,
@@ -53,7 +53,7 @@ void AddRunCommand(CLI::App* app) {
   run->callback([o] {
     run::RunJob& job = o->job;
     if (o->pose.empty() && o->from.empty())
-      throw std::runtime_error("--initial-pose or --initial-from is wanted");
+      throw std::runtime_error("--initial-pose or --initial-from is required");
     if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
     job.initial_from = o->from;
     if (job.truth.empty()) job.truth = o->from;

@@ -33,7 +33,7 @@ std::vector<procman::ProcmanCommand> CommandsOf(const procman::Deployment& deplo
   for (const std::string& name : deputies) known += (known.empty() ? "" : ", ") + name;
   if (o.deputy.empty() && deputies.size() != 1) {
     throw std::runtime_error(o.file + " has commands of several deputies (" + known +
-                             "): say which with --deputy");
+                             "); choose one with --deputy");
   }
   *deputy = o.deputy.empty() ? *deputies.begin() : o.deputy;
   if (deputies.count(*deputy) == 0) {
@@ -122,10 +122,9 @@ void AddUpCommand(CLI::App* app) {
   up->add_option("--lcm-url", o->lcm_url,
                  "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
   up->footer(
-      "Commands see this environment; EVIT_CONFIG and EVIT_STATE are set where they are not. Their programs "
-      "are\n"
-      "looked for beside evit, then on PATH. A command that dies is started again where its auto_respawn is "
-      "true.");
+      "Commands inherit this environment; EVIT_CONFIG and EVIT_STATE get defaults. Programs are searched beside "
+      "evit, then\n"
+      "on PATH. A command that dies is restarted if its auto_respawn is true.");
   up->callback([o] { Up(*o); });
 }
 

@@ -84,7 +84,7 @@ void WriteLog(const std::string& path, const Rig& rig) {
   log.Close();
 }
 
-TEST(Predictions, OfHigherOrderAreNearerToAnAcceleratedMotion) {
+TEST(Predictions, HigherOrdersPredictAcceleratedMotionBetter) {
   const TestFolder folder("paper_predictions");
   const Rig rig = TestRig();
   WriteLog(folder / "keyframes.lcmlog", rig);
@@ -109,7 +109,7 @@ TEST(Predictions, OfHigherOrderAreNearerToAnAcceleratedMotion) {
               0.6);
 }
 
-TEST(Figures, OfKeyframesAreDrawnFromARecording) {
+TEST(Figures, KeyframeFiguresAreDrawnFromARecording) {
   const TestFolder folder("paper_figures");
   const Rig rig = TestRig();
   WriteLog(folder / "keyframes.lcmlog", rig);
@@ -135,7 +135,7 @@ TEST(Figures, OfKeyframesAreDrawnFromARecording) {
   EXPECT_GT(red(window(cv::Rect(0, window.rows - 200, window.cols, 200))), 500);
 }
 
-TEST(Figures, OfTrajectoriesEndWhereAMethodIsLost) {
+TEST(Figures, TrajectoriesEndWhereAMethodIsLost) {
   const TestFolder folder("paper_trajectories");
   Trajectory truth, half;
   for (int k = 0; k <= 400; ++k) {
@@ -161,7 +161,7 @@ TEST(Figures, OfTrajectoriesEndWhereAMethodIsLost) {
   EXPECT_FALSE(has(600, 790));
 }
 
-TEST(Figures, ThatCannotBeDrawnSayWhy) {
+TEST(Figures, UndrawableFigureGivesTheReason) {
   const TestFolder folder("paper_no_figures");
   PaperOptions options;
   options.config = EVIT_SOURCE_DIR "/config/paper.textproto";

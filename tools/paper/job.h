@@ -35,10 +35,10 @@ struct JobsOutcome {
   std::vector<Failure> failures;  // with the programs' last words; jobs that needed them were left out
 };
 
-/// Does all jobs that are not done, `parallel` at a time, in their order where nothing is waited for.
+/// Does all jobs that are not done yet, up to `parallel` at once, in order as far as their needs allow.
 /// `programs`: folder of executables searched before PATH. `show`: share 0..1 of the work, and what is
-/// running; called some ten times a second. Where `interrupted` gets true, what runs is stopped and its
-/// folder removed: everything finished stays. A job that fails does not stop the others.
+/// running; called some ten times a second. Once `interrupted` returns true, running jobs are stopped and
+/// their folders removed; everything finished stays. A job that fails does not stop the others.
 JobsOutcome RunJobs(const std::vector<PaperJob>& jobs, int parallel, const std::string& programs,
                     const std::function<void(double, const std::string&)>& show,
                     const std::function<bool()>& interrupted);

@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 
 // Jobs that leave a mark in a shared file each time they are done.
-class Jobs : public ::testing::Test {
+class JobTest : public ::testing::Test {
  protected:
   PaperJob Make(const std::string& name, const std::string& key, const std::string& script = "true") {
     PaperJob job;
@@ -39,7 +39,7 @@ class Jobs : public ::testing::Test {
   double shown_ = 0;
 };
 
-TEST_F(Jobs, AreDoneOnceAndAgainOnlyWhenTheirKeyChanges) {
+TEST_F(JobTest, RunAgainOnlyWhenTheirKeyChanges) {
   std::vector<PaperJob> jobs{Make("a", "1"), Make("b", "1")};
   jobs[1].needs = {0};
   const JobsOutcome first = Run(jobs);
@@ -59,14 +59,14 @@ TEST_F(Jobs, AreDoneOnceAndAgainOnlyWhenTheirKeyChanges) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "b/old"));
 }
 
-TEST_F(Jobs, RunSideBySideAndWaitForWhatTheyNeed) {
+TEST_F(JobTest, RunInParallelAfterTheirDependencies) {
   std::vector<PaperJob> jobs{Make("slow", "1", "sleep 2"), Make("after", "1"), Make("beside", "1")};
   jobs[1].needs = {0};
   EXPECT_EQ(Run(jobs).done, 3U);
   EXPECT_EQ(Marks(), "beside\nslow\nafter\n");
 }
 
-TEST_F(Jobs, ThatFailTakeAlongWhatNeedsThemAndNothingElse) {
+TEST_F(JobTest, FailureSkipsOnlyDependentJobs) {
   std::vector<PaperJob> jobs{Make("bad", "1", "echo no disk left; exit 3"), Make("needs", "1"),
                              Make("good", "1")};
   jobs[1].needs = {0};
@@ -79,14 +79,14 @@ TEST_F(Jobs, ThatFailTakeAlongWhatNeedsThemAndNothingElse) {
   EXPECT_FALSE(IsDone(jobs[0]));
 }
 
-TEST_F(Jobs, AcceptTheExitCodesThatAreResults) {
+TEST_F(JobTest, GoodExitCodesCountAsDone) {
   std::vector<PaperJob> jobs{Make("lost", "1", "exit 2")};
   jobs[0].good_codes = {0, 2};
   EXPECT_TRUE(Run(jobs).failures.empty());
   EXPECT_TRUE(IsDone(jobs[0]));
 }
 
-TEST_F(Jobs, WhoseFinishFailsAreNotDone) {
+TEST_F(JobTest, FailingFinishIsAFailure) {
   std::vector<PaperJob> jobs{Make("a", "1")};
   jobs[0].finish = [] { throw std::runtime_error("cannot be removed"); };
   const JobsOutcome outcome = Run(jobs);
@@ -95,7 +95,7 @@ TEST_F(Jobs, WhoseFinishFailsAreNotDone) {
   EXPECT_FALSE(IsDone(jobs[0]));
 }
 
-TEST_F(Jobs, InterruptedLeaveWhatIsFinishedAndNothingHalf) {
+TEST_F(JobTest, InterruptionKeepsOnlyFinishedJobs) {
   std::vector<PaperJob> jobs{Make("a", "1"), Make("endless", "1", "exec sleep 100")};
   jobs[1].needs = {0};
   const auto begin = std::chrono::steady_clock::now();

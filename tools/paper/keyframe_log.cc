@@ -31,7 +31,7 @@ KeyframeLog::KeyframeLog(const std::string& path) : log_(path) {
     }
   }
   if (windows_.empty())
-    throw std::runtime_error(path + ": holds no window of keyframes: the run it is of never tracked");
+    throw std::runtime_error(path + ": contains no window of keyframes: its run never tracked");
 }
 
 bool KeyframeLog::Read(std::int64_t seq, RecordedKeyframe* keyframe) const {

@@ -77,7 +77,7 @@ void PlanRuns(const PaperOptions& options, const std::string& work, PaperPlan* p
       }
       run.recording = k;
       run.method = method;
-      run.wanted = selection.Wants(*recording.sequence, method);
+      run.selected = selection.Wants(*recording.sequence, method);
       run.job = RunJobOf(recording, method, work + "/runs/" + recording.name + "/" + method.id(), program_id,
                          false, {});
       run.job.cost = recording.seconds * CostPerSecond(method);
@@ -119,7 +119,7 @@ PaperPlan MakePlan(const PaperOptions& options) {
   PlanRuns(options, recording.work, &plan);
   if (JobsOf(plan).empty()) {
     throw std::runtime_error(
-        "--only: its words have no run in common; tables, sequences and methods narrow each other");
+        "--only: no run matches all of these words (tables, sequences and methods narrow each other)");
   }
   return plan;
 }
@@ -129,9 +129,9 @@ std::vector<PaperJob> JobsOf(const PaperPlan& plan) {
   for (std::size_t k = 0; k < plan.recordings.size(); ++k) {
     std::vector<const PlannedRun*> runs;
     for (const PlannedRun& run : plan.runs) {
-      if (run.recording == k && run.wanted) runs.push_back(&run);
+      if (run.recording == k && run.selected) runs.push_back(&run);
     }
-    if (plan.figure_run && plan.figure_run->recording == k && plan.figure_run->wanted)
+    if (plan.figure_run && plan.figure_run->recording == k && plan.figure_run->selected)
       runs.push_back(&*plan.figure_run);
     if (runs.empty()) continue;
     const std::size_t recording = jobs.size();

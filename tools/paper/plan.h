@@ -18,14 +18,14 @@ struct PaperOptions {
   std::vector<std::string> only;  // tables, sequences, methods; empty: all
   std::optional<int> seeds;       // in place of the configuration's
   bool quick = false;             // one seed, short clips
-  int jobs = 2;                   // at a time
+  int jobs = 2;                   // run in parallel
 };
 
 /// `evit run` of one method on one recording.
 struct PlannedRun {
   std::size_t recording = 0;  // index
   paper::Method method;
-  bool wanted = true;  // by options.only
+  bool selected = true;  // by options.only
   bool photometric = false;
   PaperJob job;
 };
@@ -43,10 +43,10 @@ struct PaperPlan {
 /// nothing.
 PaperPlan MakePlan(const PaperOptions& options);
 
-/// Jobs of the plan that are wanted, each after those it needs.
+/// The selected jobs of the plan, each after those it needs.
 std::vector<PaperJob> JobsOf(const PaperPlan& plan);
 
-/// Scores of all runs that are done, wanted or not; a sequence and method count once all their seeds are
+/// Scores of all runs that are done, selected or not; a sequence and method count once all their seeds are
 /// done.
 PaperResults CollectResults(const PaperPlan& plan);
 

@@ -16,7 +16,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-class Plan : public ::testing::Test {
+class PlanTest : public ::testing::Test {
  protected:
   void SetUp() override {
     options_.config = EVIT_SOURCE_DIR "/config/paper.textproto";
@@ -37,7 +37,7 @@ class Plan : public ::testing::Test {
   PaperOptions options_;
 };
 
-TEST_F(Plan, HasEverySequenceInEveryRoomWithEveryMethod) {
+TEST_F(PlanTest, HasEverySequenceInEveryRoomWithEveryMethod) {
   const PaperPlan plan = MakePlan(options_);
   const int methods = static_cast<int>(AllMethods(plan.config).size());
   const auto jobs = JobsOf(plan);
@@ -52,7 +52,7 @@ TEST_F(Plan, HasEverySequenceInEveryRoomWithEveryMethod) {
   EXPECT_TRUE(CollectResults(plan).runs.empty());
 }
 
-TEST_F(Plan, QuickIsOneRoomAndMakesRecordingsOfItsOwn) {
+TEST_F(PlanTest, QuickIsOneRoomAndMakesRecordingsOfItsOwn) {
   const auto slow = JobsOf(MakePlan(options_));
   options_.quick = true;
   const auto quick = JobsOf(MakePlan(options_));
@@ -62,7 +62,7 @@ TEST_F(Plan, QuickIsOneRoomAndMakesRecordingsOfItsOwn) {
   EXPECT_EQ(Count(JobsOf(MakePlan(options_)), "simulate "), 12);
 }
 
-TEST_F(Plan, OnlyNarrowsByTableSequenceAndMethod) {
+TEST_F(PlanTest, OnlyNarrowsByTableSequenceAndMethod) {
   options_.only = {"II", "EVIT"};
   auto jobs = JobsOf(MakePlan(options_));
   EXPECT_EQ(Count(jobs, "simulate "), 9);
@@ -75,13 +75,13 @@ TEST_F(Plan, OnlyNarrowsByTableSequenceAndMethod) {
   options_.only = {"III"};
   EXPECT_EQ(Count(JobsOf(MakePlan(options_)), "run "), 54);
   options_.only = {"III", "EVT"};
-  EXPECT_THAT([&] { MakePlan(options_); }, ThrowsMessage<std::runtime_error>(HasSubstr("no run in common")));
+  EXPECT_THAT([&] { MakePlan(options_); }, ThrowsMessage<std::runtime_error>(HasSubstr("no run matches")));
   options_.only = {"sofa"};
   EXPECT_THAT([&] { MakePlan(options_); },
               ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("--only sofa"), HasSubstr("sofa_fast"))));
 }
 
-TEST_F(Plan, KeysChangeWithWhatTheyDependOn) {
+TEST_F(PlanTest, KeysChangeWithWhatTheyDependOn) {
   const auto before = JobsOf(MakePlan(options_));
   EXPECT_EQ(before[1].key, JobsOf(MakePlan(options_))[1].key);
   // The same tracker, but for one figure.
@@ -102,7 +102,7 @@ TEST_F(Plan, KeysChangeWithWhatTheyDependOn) {
   }
 }
 
-TEST_F(Plan, TakesRecordedSequencesWhereTheyAre) {
+TEST_F(PlanTest, PrefersRecordedSequences) {
   WriteRecorded("desk_normal");
   WriteRecorded("sofa_fast/sofa_fast");
   folder_.Write("vector/desk.ply", "x");
@@ -118,7 +118,7 @@ TEST_F(Plan, TakesRecordedSequencesWhereTheyAre) {
   EXPECT_THAT(desk->job.key, HasSubstr("desk_normal1.synced.left_event.hdf5 1 bytes"));
 }
 
-TEST_F(Plan, TakesBagsToo) {
+TEST_F(PlanTest, FindsBags) {
   for (const char* end : {"left_event", "imu", "gt"})
     folder_.Write("vector/robot_fast1.synced." + std::string(end) + ".bag", "x");
   folder_.Write("vector/robot.pcd", "x");
@@ -132,7 +132,7 @@ TEST_F(Plan, TakesBagsToo) {
   EXPECT_THAT(words.at(5), HasSubstr("gt.bag"));
 }
 
-TEST_F(Plan, SaysWhatARecordedSequenceLacks) {
+TEST_F(PlanTest, MissingFilesOfARecordedSequenceAreNamed) {
   WriteRecorded("desk_normal");
   options_.vector = folder_ / "vector";
   EXPECT_THAT([&] { MakePlan(options_); },
@@ -147,7 +147,7 @@ TEST_F(Plan, SaysWhatARecordedSequenceLacks) {
   EXPECT_THAT([&] { MakePlan(options_); }, ThrowsMessage<std::runtime_error>(HasSubstr("holds no sequence")));
 }
 
-TEST_F(Plan, IndexSaysWhatIsThereAndHowItWasMade) {
+TEST_F(PlanTest, IndexDescribesResultsAndTheirOrigin) {
   const PaperPlan plan = MakePlan(options_);
   PaperResults results;
   results.runs[{"desk_fast", "evit"}] = {MadeUpRun(1, 2, 3)};

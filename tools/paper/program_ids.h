@@ -5,7 +5,7 @@
 namespace evit::paper {
 
 /// Tells one build of the code that makes recordings (simulator, imports) from another: changes of it, and of
-/// nothing else, make recordings anew.
+/// nothing else, make recordings again.
 std::string RecordingProgramId();
 
 /// The same of the code that makes photometric maps of their images.

@@ -22,7 +22,7 @@ std::string FindMap(const std::string& folder, const paper::Sequence& sequence) 
   }
   throw std::runtime_error(folder + ": holds " + sequence.name() +
                            " but no map of its scene: " + sequence.scene() +
-                           ".pcd, .ply or .txt is wanted (z up, metres), or `map` in the configuration");
+                           ".pcd, .ply or .txt is expected (z up, metres), or `map` in the configuration");
 }
 
 std::string FindPhotometricMap(const std::string& folder, const paper::Sequence& sequence) {

@@ -19,7 +19,7 @@ report::Report ReadReport(const std::string& folder) {
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   report::Report report;
   if (!file || !google::protobuf::util::JsonStringToMessage(text, &report).ok()) {
-    throw std::runtime_error(path + ": is no report of `evit run`; delete its folder and run again");
+    throw std::runtime_error(path + ": is not a report of `evit run`; delete its folder and run again");
   }
   return report;
 }
@@ -32,12 +32,12 @@ Trajectory Until(Trajectory trajectory, std::optional<Utime> end) {
   return trajectory;
 }
 
-// Empty where it never had a pose: a TUM file of none is an error elsewhere.
+// Empty when nothing was tracked: ReadTum() treats a file without poses as an error.
 Trajectory ReadEstimate(const std::string& folder, const report::Report& report) {
   return report.poses() == 0 ? Trajectory() : ReadTum(folder + "/trajectory.tum");
 }
 
-// After the estimate's begin only: a start that needs several attempts is no loss.
+// Only after the first pose: a start that takes several attempts does not count as lost.
 std::optional<Utime> FirstLoss(const report::Report& report, const Trajectory& estimate, std::string* why) {
   for (const report::ModeChange& change : report.mode_changes()) {
     const auto t = static_cast<Utime>(change.utime());

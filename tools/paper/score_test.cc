@@ -23,7 +23,7 @@ Trajectory Along(double seconds, const Eigen::Vector3d& offset, double drift = 0
   return poses;
 }
 
-TEST(Score, ThePapersAlignmentTakesAConstantOffsetAwayAndNoneDoesNot) {
+TEST(Score, FirstPairAlignmentRemovesAConstantOffset) {
   const RunScore score = ScoreTrajectory(Along(10, {0, 0, 0}), Along(10, {0, 0.03, 0.04}), {});
   for (std::size_t m = 0; m < kMilestones.size(); ++m) {
     ASSERT_TRUE(score.ate[0][m] && score.ate[1][m] && score.ate[2][m]);
@@ -43,7 +43,7 @@ TEST(Score, ErrorsCountUpToTheMilestoneOnly) {
   EXPECT_NEAR(score.ate[0][2]->position_cm, 10 / std::sqrt(3), 0.03);
 }
 
-TEST(Score, AMilestoneIsNotReachedByWhatEndsOrIsLostBefore) {
+TEST(Score, MilestoneIsNotReachedAfterEndOrLoss) {
   const Trajectory truth = Along(10, {0, 0, 0});
   const RunScore ended = ScoreTrajectory(truth, Along(4, {0, 0, 0}), {});
   EXPECT_TRUE(ended.ate[0][0]);
@@ -59,7 +59,7 @@ TEST(Score, AMilestoneIsNotReachedByWhatEndsOrIsLostBefore) {
   EXPECT_DOUBLE_EQ(never.keyframe_rate_hz, 0);
 }
 
-class RunFolder : public ::testing::Test {
+class ScoreRunTest : public ::testing::Test {
  protected:
   void SetUp() override {
     WriteTum(folder_ / "truth.tum", Along(12, {0, 0, 0}));
@@ -84,15 +84,15 @@ class RunFolder : public ::testing::Test {
   report::Report report_;
 };
 
-TEST_F(RunFolder, IsScoredOverThePartThatWasPlayed) {
+TEST_F(ScoreRunTest, IsScoredOverThePartThatWasPlayed) {
   Write(Along(10, {0, 0, 0}));
   const RunScore score = ScoreRun(folder_.path(), folder_ / "truth.tum");
-  EXPECT_TRUE(score.ate[0][2]) << "the truth goes on for 2 s more";
+  EXPECT_TRUE(score.ate[0][2]) << "the truth continues for 2 s more";
   EXPECT_DOUBLE_EQ(score.cpu_s_per_s, 0.5);
   EXPECT_EQ(score.lost, "");
 }
 
-TEST_F(RunFolder, EndsAtItsFirstLossButAStartInSeveralAttemptsIsNone) {
+TEST_F(ScoreRunTest, EndsAtTheFirstLossAfterTracking) {
   AddMode("LOST", -100'000, "no map in view");
   AddMode("TRACKING", 0, "tracking");
   AddMode("LOST", 4'000'000, "no events");
@@ -105,7 +105,7 @@ TEST_F(RunFolder, EndsAtItsFirstLossButAStartInSeveralAttemptsIsNone) {
   EXPECT_EQ(TrackedPart(folder_.path()).back().t, kBegin + 3'980'000);
 }
 
-TEST_F(RunFolder, WithoutAPoseReachesNothing) {
+TEST_F(ScoreRunTest, WithoutPosesReachesNoMilestone) {
   Write({});
   const RunScore score = ScoreRun(folder_.path(), folder_ / "truth.tum");
   EXPECT_FALSE(score.ate[2][0]);
@@ -113,7 +113,7 @@ TEST_F(RunFolder, WithoutAPoseReachesNothing) {
   EXPECT_TRUE(TrackedPart(folder_.path()).empty());
 }
 
-TEST_F(RunFolder, ThatIsNoneIsAnErrorNamingTheFile) {
+TEST_F(ScoreRunTest, MissingReportIsNamed) {
   EXPECT_THAT([&] { ScoreRun(folder_.path(), folder_ / "truth.tum"); },
               ::testing::ThrowsMessage<std::runtime_error>(::testing::HasSubstr("report.json")));
 }

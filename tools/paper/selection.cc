@@ -46,7 +46,7 @@ Selection::Selection(const paper::Paper& config, const std::vector<std::string>&
       found = true;
     }
     if (!found)
-      throw std::runtime_error("--only " + word + ": is no table, sequence or method; known: " + known);
+      throw std::runtime_error("--only " + word + ": is not a table, sequence or method; known: " + known);
   }
 }
 

@@ -38,7 +38,7 @@ TEST(Table, HasThePapersLayoutWithTheBestOfASequenceInBold) {
   EXPECT_EQ(fast.rows[0][3], "9.00") << "alone, nothing is best";
 }
 
-TEST(Table, OfSeveralSeedsGivesMedianAndWorstAndCountsAMilestoneOnlyWhereAllReachedIt) {
+TEST(Table, SeveralSeedsGiveMedianWorstAndReachedMilestones) {
   PaperResults results;
   results.runs[{"desk_fast", "evit"}] = {MadeUpRun(1, 0.1, 3), MadeUpRun(3, 0.3, 3), MadeUpRun(1.5, 0.2, 3)};
   results.runs[{"desk_fast", "evt100"}] = {MadeUpRun(0.5, 0.1, 3), MadeUpRun(0.5, 0.1, 1),
@@ -52,7 +52,7 @@ TEST(Table, OfSeveralSeedsGivesMedianAndWorstAndCountsAMilestoneOnlyWhereAllReac
                           "**0.20** (0.30)", "**3.50** (5.00)", "**0.20** (0.30)", "50.00", "0.50"));
 }
 
-TEST(Table, OfMotionModelsHasASequenceInARowAndNoneBoldButTheBestOfIt) {
+TEST(Table, MotionModelsShareARowPerSequence) {
   PaperResults results;
   results.runs[{"sofa_fast", "evit_order0"}] = {MadeUpRun(1, 1, 0)};
   results.runs[{"sofa_fast", "evit_order1"}] = {MadeUpRun(1, 3, 3)};
@@ -70,7 +70,7 @@ TEST(Table, TextFormsAreWellFormed) {
   EXPECT_EQ(table.Csv(), "a,b\r\n\"1,5\",\"say \"\"so\"\"\"\r\n");
 }
 
-TEST(Table, FilesHoldEverySeedAndGoWhenTheirRowsDo) {
+TEST(Table, FilesFollowTheirRows) {
   const TestFolder folder("paper_tables");
   const paper::Paper config = ShippedPaper();
   PaperResults results;

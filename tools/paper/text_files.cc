@@ -33,14 +33,14 @@ void WriteText(const std::string& path, const std::string& text) {
   file.close();
   if (!file || std::rename(part.c_str(), path.c_str()) != 0) {
     std::remove(part.c_str());
-    throw std::runtime_error(path + ": cannot be written; is the disk full, or the folder not yours?");
+    throw std::runtime_error(path + ": cannot be written; check the free space and the permissions of the folder");
   }
 }
 
 void MakeFolder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (error) throw std::runtime_error(path + ": is no folder that can be written (" + error.message() + ")");
+  if (error) throw std::runtime_error(path + ": is not a writable folder (" + error.message() + ")");
 }
 
 std::uint64_t HashOf(const std::string& text) { return Continue(kBasis, text.data(), text.size()); }

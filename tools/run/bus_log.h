@@ -9,7 +9,7 @@
 namespace evit::run {
 
 /// Writes what comes on some channels to an LCM log, as lcm-logger would, with the host's time of arrival.
-/// Where the disk takes no more, the run goes on, and Close() says so.
+/// When the disk is full the run continues and Close() reports it.
 class BusLog {
  public:
   /// `bus` must outlive this. Throws std::runtime_error where the file cannot be made.

@@ -53,7 +53,7 @@ TEST_F(LatencyTest, CountsFromThePacketThatCompletesTheSurface) {
   EXPECT_LT(events.p50_ms, stamp.p50_ms - 25);
 }
 
-TEST_F(LatencyTest, WhatCannotBeDatedDoesNotCount) {
+TEST_F(LatencyTest, PosesWithoutAMatchingPacketAreIgnored) {
   Window(1'000'000, 0);  // no events at all
   Events(1'990'000, 1'999'000);
   Events(2'000'000, 2'004'000);

@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-TEST(OutagesTest, TellWhenPosesAreBack) {
+TEST(OutagesTest, MeasureTheTimeWithoutPoses) {
   const auto bus = OpenMemoryBus(MakeMemoryHub());
   Outages outages(bus.get(), Channels());
   const Outages::Clock::time_point t0 = Outages::Clock::now();
@@ -25,7 +25,7 @@ TEST(OutagesTest, TellWhenPosesAreBack) {
   EXPECT_DOUBLE_EQ(outages.MsAfter(t0 + milliseconds(320), t0 + milliseconds(400)), 80);
 }
 
-TEST(OutagesTest, CountKeyframesWithoutAnAnswer) {
+TEST(OutagesTest, CountKeyframesWithoutAnswer) {
   const auto bus = OpenMemoryBus(MakeMemoryHub());
   Outages outages(bus.get(), Channels());
   const Outages::Clock::time_point t0 = Outages::Clock::now();
@@ -37,7 +37,7 @@ TEST(OutagesTest, CountKeyframesWithoutAnAnswer) {
   EXPECT_EQ(outages.KeyframesLostAfter(t0, t0 + milliseconds(35)), 1);
 }
 
-TEST(OutagesTest, WithoutAnyPose) {
+TEST(OutagesTest, LastUntilTheEndWithoutPoses) {
   const auto bus = OpenMemoryBus(MakeMemoryHub());
   const Outages outages(bus.get(), Channels());
   const auto now = Outages::Clock::now();

@@ -22,7 +22,7 @@ void Pipeline::Watch() {
   for (std::size_t k = 0; k < processes_.size(); ++k) {
     const procman::ManagedProcess& process = *processes_[k];
     const bool waiting = process.state() == procman::ManagedProcess::State::kWaiting;
-    // Ordered restarts (evit restart) are no deaths.
+    // Ordered restarts (evit restart) are not deaths.
     if (waiting && process.died() && process.runs() == runs_[k]) {
       deaths_.push_back({process.command().id, std::chrono::steady_clock::now()});
       ++runs_[k];
@@ -32,7 +32,7 @@ void Pipeline::Watch() {
     if (!process.died() || (waiting && !given_up)) continue;
     const std::string words = process.LastWords();
     throw std::runtime_error(process.command().id + " died with " + process.end() +
-                             (words.empty() ? ", without a word" : "; its last words:" + words));
+                             (words.empty() ? " without any output" : "; its last output:" + words));
   }
 }
 

@@ -29,7 +29,7 @@ class PipelineTest : public ProgramsTest {
   std::unique_ptr<Bus> bus_ = OpenMemoryBus(MakeMemoryHub());
 };
 
-TEST_F(PipelineTest, ServicesRunAreToldToStopAndLeaveLogs) {
+TEST_F(PipelineTest, StoppedServicesLeaveTheirLogs) {
   Program("a", kWaits);
   Program("b", kWaits);
   const auto pipeline = Make({Service("a"), Service("b")});
@@ -43,7 +43,7 @@ TEST_F(PipelineTest, ServicesRunAreToldToStopAndLeaveLogs) {
   EXPECT_TRUE(pipeline->deaths().empty());
 }
 
-TEST_F(PipelineTest, DeathIsReportedWithLastWordsAndTheOthersStop) {
+TEST_F(PipelineTest, DeathIsReportedWithTheLastOutput) {
   Program("a", kWaits);
   Program("b", "echo first; echo the disk is on fire >&2; exit 7");
   auto pipeline = Make({Service("a"), Service("b")});
@@ -55,7 +55,7 @@ TEST_F(PipelineTest, DeathIsReportedWithLastWordsAndTheOthersStop) {
   EXPECT_TRUE(Gone(other));
 }
 
-TEST_F(PipelineTest, ReplaceableServiceIsStartedAgainAndCounted) {
+TEST_F(PipelineTest, DeadServiceIsRestartedAndCounted) {
   Program("map", kWaits);
   const auto pipeline = Make({Service("map", true)});
   const pid_t first = pipeline->processes()[0]->pid();
@@ -69,7 +69,7 @@ TEST_F(PipelineTest, ReplaceableServiceIsStartedAgainAndCounted) {
   EXPECT_NE(pipeline->processes()[0]->pid(), first);
 }
 
-TEST_F(PipelineTest, ReplaceableServiceThatNeverLivesIsGivenUp) {
+TEST_F(PipelineTest, ServiceThatDiesAtEveryStartIsGivenUp) {
   Program("map", "exit 1");
   const auto pipeline = Make({Service("map", true)});
   EXPECT_THAT([&] { Within(20s, [&] { return pipeline->Watch(), false; }); },
@@ -78,7 +78,7 @@ TEST_F(PipelineTest, ReplaceableServiceThatNeverLivesIsGivenUp) {
 
 TEST_F(PipelineTest, MissingProgramIsNamed) {
   EXPECT_THAT([&] { Make({Service("none_such")}); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("there is no such program")));
+              ThrowsMessage<std::runtime_error>(HasSubstr("no such program")));
 }
 
 }  // namespace

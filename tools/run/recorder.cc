@@ -64,7 +64,7 @@ void Recorder::OnMode(const tracker_mode_t& message) {
   if (mode_changes_.empty() || message.mode != mode_.mode || message.reason != mode_.reason) {
     mode_changes_.push_back({message.utime, message.mode, message.reason});
   }
-  // frame_builder counts anew after a restart.
+  // frame_builder counts from zero after a restart.
   if (message.keyframe_epoch != mode_.keyframe_epoch) earlier_keyframes_ += mode_.keyframe_seq + 1;
   mode_ = message;
 }

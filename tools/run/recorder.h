@@ -62,7 +62,7 @@ class Recorder {
   Trajectory online_;
   Covariances covariances_;
   std::map<Utime, StampedPose>
-      window_;  // those in the window; keyframe numbers begin anew with frame_builder
+      window_;  // those in the window; keyframe numbers restart with frame_builder
   Trajectory left_;
   std::vector<ModeChange> mode_changes_;
   tracker_mode_t mode_{};

@@ -102,7 +102,7 @@ TEST_F(RecorderTest, RepeatedOrOlderStatesAddNothing) {
   EXPECT_THAT(Xs(recorder_.online()), ElementsAre(200.1));
 }
 
-TEST_F(RecorderTest, WindowThatBeginsAnewKeepsTimeOrder) {
+TEST_F(RecorderTest, WindowThatStartsAgainKeepsTimeOrder) {
   SendWindow(0, 2, 0.1);
   SendWindow(9, 9, 0.1);  // after LOST
   SendWindow(9, 10, 0.2);
@@ -142,7 +142,7 @@ TEST_F(RecorderTest, ProgressAndActivity) {
   EXPECT_EQ(recorder_.progress(), 0);
   SendStatus("log_replay", "running");
   EXPECT_EQ(recorder_.progress(), 0.25);
-  EXPECT_FALSE(recorder_.TakeActivity());  // a heartbeat is no progress
+  EXPECT_FALSE(recorder_.TakeActivity());  // a heartbeat is not progress
   SendWindow(0, 0, 0);
   EXPECT_TRUE(recorder_.TakeActivity());
   EXPECT_FALSE(recorder_.TakeActivity());
@@ -152,7 +152,7 @@ TEST_F(RecorderTest, ProgressAndActivity) {
   EXPECT_FALSE(recorder_.TakeActivity());  // nor is the same said again
 }
 
-TEST_F(RecorderTest, RubbishIsIgnored) {
+TEST_F(RecorderTest, MalformedMessagesAreIgnored) {
   for (const std::string& channel : {channels_.window_state, channels_.tracker_mode, channels_.status}) {
     sender_->Publish(channel, "rubbish", 7);
   }

@@ -17,9 +17,9 @@ class Remote {
   Remote(Bus* bus, const Channels& channels);
 
   void Resume();
-  /// Replay goes on at the beginning of its part of the log.
+  /// Replay continues from the beginning of its part of the log.
   void Rewind();
-  /// The body is here (POSE_HINT): tracking starts anew.
+  /// The body is here (POSE_HINT): tracking restarts from this pose.
   void HintPose(const SE3& T_map_body);
 
  private:

@@ -78,8 +78,8 @@ std::vector<procman::ProcmanCommand> Commands(const RunJob& job, const std::stri
     command.id = words->front();
     command.exec = procman::JoinCommandLine(*words);
     command.group = "evit";
-    // Lossless replay is in the middle of a conversation that counts messages: only map_server keeps out of
-    // it.
+    // Lossless replay counts every message, so a service that restarts in the middle cannot catch up; only
+    // map_server keeps no count.
     command.auto_respawn = !job.lossless || words == &map_server;
     command.stop_time_allowed = 2;
     commands.push_back(std::move(command));
@@ -117,7 +117,7 @@ void Show(const Recorder& recorder, terminal::ProgressBar* bar) {
 }
 
 [[noreturn]] void FailStuck(const Recorder& recorder, const std::string& what) {
-  std::string text = what + "; the services say:";
+  std::string text = what + "; status of the services:";
   for (const auto& [name, status] : recorder.statuses()) {
     text += "\n  " + name + ": " + status.state + ": " + status.detail;
   }
@@ -138,12 +138,12 @@ std::string WaitForEnd(const RunJob& job, const StopSignals& signals, Bus* bus, 
     Show(*recorder, &bar);
     if (recorder->Finished()) return "finished";
     for (const auto& [name, status] : recorder->statuses()) {
-      if (status.state == "failed") FailStuck(*recorder, name + " cannot go on");
+      if (status.state == "failed") FailStuck(*recorder, name + " failed");
     }
     if (recorder->TakeActivity()) last_activity = Clock::now();
     const double silence = SecondsSince(last_activity);
     if (!job.lossless && recorder->progress() >= 1 && silence > kRealTimeSilence) return "finished";
-    if (silence > kStuck) FailStuck(*recorder, "the tracker has said nothing for 60 s");
+    if (silence > kStuck) FailStuck(*recorder, "no message from the tracker for 60 s");
   }
   return "interrupted";
 }

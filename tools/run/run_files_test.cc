@@ -114,7 +114,7 @@ TEST_F(RunFilesTest, GivenPoseNeedsNoTruth) {
   EXPECT_TRUE(inputs.truth.empty());
 }
 
-TEST_F(RunFilesTest, OldResultsGo) {
+TEST_F(RunFilesTest, OldResultsAreRemoved) {
   std::filesystem::create_directories(job_.out);
   std::ofstream(job_.out + "/trajectory.tum") << "old";
   std::ofstream(job_.out + "/mine.txt") << "kept";
@@ -138,7 +138,7 @@ TEST_F(RunFilesTest, EachUnusableFileIsNamedBeforeAnythingIsWritten) {
 
 TEST_F(RunFilesTest, CutLogIsRefused) {
   std::filesystem::resize_file(job_.log, std::filesystem::file_size(job_.log) - 5);
-  ExpectRefused(AllOf(HasSubstr("a.lcmlog"), HasSubstr("cut off")));
+  ExpectRefused(AllOf(HasSubstr("a.lcmlog"), HasSubstr("truncated")));
 }
 
 TEST_F(RunFilesTest, TruthOfAnotherTimeIsRefused) {
@@ -152,7 +152,7 @@ TEST_F(RunFilesTest, UnwritableOutputIsNamed) {
   EXPECT_THAT([&] { PrepareRun(job_); }, ThrowsMessage<std::runtime_error>(HasSubstr("file/out")));
 }
 
-TEST_F(RunFilesTest, ReportSaysWhatTheErrorsAre) {
+TEST_F(RunFilesTest, ReportHoldsTheErrors) {
   Trajectory truth, estimate;
   for (int k = 0; k <= 100; ++k) truth.push_back({kStart + Utime{10'000} * k, At(k)});
   for (int k = 10; k <= 60; ++k) {
@@ -177,7 +177,7 @@ TEST_F(RunFilesTest, ReportSaysWhatTheErrorsAre) {
               ThrowsMessage<std::runtime_error>(HasSubstr("no/report.json")));
 }
 
-TEST_F(RunFilesTest, ReportAndPlotSayHowHonestTheCovarianceIs) {
+TEST_F(RunFilesTest, ReportAndPlotShowConsistency) {
   Trajectory truth, estimate;
   Covariances covariances;
   for (int k = 0; k <= 100; ++k) {

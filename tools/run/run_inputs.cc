@@ -37,8 +37,8 @@ Utime TimeOf(const LogReader& log, const LogEntry& entry, Utime otherwise) {
 void ReadSpan(const RunJob& job, RunInputs* inputs) {
   const LogReader log(job.log);
   if (log.trailing_bytes() > 0) {
-    throw std::runtime_error(job.log + ": is cut off or damaged after " +
-                             std::to_string(log.entries().size()) + " whole messages; make it again");
+    throw std::runtime_error(job.log + ": is truncated or damaged after " +
+                             std::to_string(log.entries().size()) + " complete messages; make it again");
   }
   const LogEntry *first_imu = nullptr, *last_imu = nullptr, *first_events = nullptr;
   for (const LogEntry& entry : log.entries()) {
@@ -67,7 +67,7 @@ void ReadSpan(const RunJob& job, RunInputs* inputs) {
   for (const Utime first : {imu, events}) {
     if (first != kNever) inputs->begin = std::max(inputs->begin, first);
   }
-  if (inputs->begin >= inputs->end) throw std::runtime_error(job.log + ": has nothing at --seconds");
+  if (inputs->begin >= inputs->end) throw std::runtime_error(job.log + ": contains no data in the part that --seconds selects");
   // The number of events follows from a message's length: nothing else has to be read.
   const std::int64_t bare = event_packet_t{}.getEncodedSize();
   for (const LogEntry& entry : log.entries()) {
@@ -86,7 +86,7 @@ SE3 StartPose(const RunJob& job, Utime begin) {
     if (PoseAt(truth, t, &pose)) return pose;
   }
   throw std::runtime_error(job.initial_from + ": has no pose at the start of the log (" +
-                           DecimalSeconds(begin) + " s): are both of the same sequence?");
+                           DecimalSeconds(begin) + " s); are both from the same sequence?");
 }
 
 }  // namespace
@@ -118,13 +118,13 @@ RunInputs PrepareRun(const RunJob& job) {
       if (s.t >= inputs.begin && s.t <= inputs.end) inputs.truth.push_back(s);
     }
     if (inputs.truth.empty()) {
-      throw std::runtime_error(job.truth + ": has no pose in the log's time: are both of the same sequence?");
+      throw std::runtime_error(job.truth + ": has no pose during the log; are both from the same sequence?");
     }
   }
   std::error_code error;
   std::filesystem::create_directories(job.out, error);
   if (error || access(job.out.c_str(), W_OK) != 0) {
-    throw std::runtime_error(job.out + ": is no folder that can be written" +
+    throw std::runtime_error(job.out + ": is not a writable folder" +
                              (error ? " (" + error.message() + ")" : ""));
   }
   // Results of an earlier run must not pass for this one's.

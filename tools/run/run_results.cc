@@ -111,9 +111,9 @@ double Lost(const report::Report& report) {
   return lost;
 }
 
-// Why there is no pose at all: what the services last said.
+// Why there is no pose at all: the last status of each service.
 std::string WhyNothing(const Recorder& recorder) {
-  std::string text = "no keyframe was tracked; the services say:";
+  std::string text = "no keyframe was tracked; status of the services:";
   for (const auto& [name, status] : recorder.statuses()) {
     text += "\n  " + name + ": " + status.state + ": " + status.detail;
   }

@@ -57,7 +57,7 @@ Trajectory Draw(const BuiltinMotion& b, double duration, Random random, const Ri
   waves.reserve(6);
   for (int i = 0; i < 6; ++i) waves.emplace_back(&random, i < 3 ? b.tempo : b.turn_tempo);
   const double step = 1e-6 * kStep, end = duration + 2 * kMarginS;
-  // First of unit size, then scaled to the wanted mean speed and rate.
+  // First of unit size, then scaled to the specified mean speed and rate.
   const auto position = [&](double t) {
     return Eigen::Vector3d(b.path_weight[0] * waves[0](t), b.path_weight[1] * waves[1](t),
                            b.path_weight[2] * waves[2](t));

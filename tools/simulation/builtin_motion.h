@@ -9,7 +9,7 @@
 namespace evit::simulation {
 
 /// A motion made by formula: sums of sines with random phases, in about 0.15 to 0.75 Hz times `tempo`, scaled
-/// to the wanted mean speed and turn rate of the camera.
+/// to the specified mean speed and turn rate of the camera.
 struct BuiltinMotion {
   const char* name;
   std::uint64_t seed;     // of its first variant

@@ -203,7 +203,7 @@ Rig MarkerRig() {
   return rig;
 }
 
-TEST(LoadMotion, TellsMarkerPosesFromBodyPoses) {
+TEST(LoadMotion, DetectsMarkerPoses) {
   const Rig rig = MarkerRig();
   TrajectorySettings settings;
   settings.source = "builtin:handheld";
@@ -226,7 +226,7 @@ TEST(LoadMotion, TellsMarkerPosesFromBodyPoses) {
 }
 
 // The recordings themselves, and what is simulated from them.
-TEST(LoadMotion, TellsTheFrameOfRealFiles) {
+TEST(LoadMotion, DetectsTheFrameOfRealFiles) {
   const char* shared = std::getenv("EVIT_SHARED_DATA");
   const fs::path data = shared ? fs::path(shared) : fs::path(EVIT_SOURCE_DIR) / "../shared/data";
   const fs::path folder = data / "vector/groundtruth";

@@ -86,7 +86,7 @@ TEST(PoseSpline, MovedIsSeenFromAnotherFrame) {
   EXPECT_LT((T.q * a.acceleration - b.acceleration).norm(), 1e-7);
 }
 
-TEST(PoseSpline, RefusesWhatIsNoMotion) {
+TEST(PoseSpline, InvalidTrajectoriesAreRejected) {
   EXPECT_THROW(PoseSpline::Fit(Trajectory(5), 0.033), std::runtime_error);
   Trajectory poses = WaveTrajectory(1);
   std::swap(poses[10], poses[11]);

@@ -153,7 +153,7 @@ TEST_F(RgbdViewsTest, HasTheMapsErrors) {
   EXPECT_NEAR(std::sqrt(sum / n), 0.02, 0.002);
 }
 
-TEST_F(RgbdViewsTest, SaysWhereItCannotWrite) {
+TEST_F(RgbdViewsTest, UnwritableFolderIsNamed) {
   std::ofstream(folder_) << "a file";
   EXPECT_THROW(WriteRgbdViews(folder_.string(), scene_, rig_, motion_.spline, times_, settings_, 1, 1),
                std::runtime_error);

@@ -65,10 +65,10 @@ void RequireSameSequence(const SimulationSettings& settings, const Motion& motio
   const nlohmann::json report = nlohmann::json::parse(file, nullptr, false);
   if (report.is_discarded())
     throw std::runtime_error((folder / "simulation.json").string() +
-                             ": is no JSON; simulate the sequence again");
+                             ": is not valid JSON; simulate the sequence again");
   if (report.value("scene_seed", settings.scene_seed) != settings.scene_seed ||
       report.value("room", RoomName(settings.room)) != RoomName(settings.room)) {
-    throw std::runtime_error(other + "simulation.json tells of another room" + remedy);
+    throw std::runtime_error(other + "simulation.json describes another room" + remedy);
   }
 }
 

@@ -76,7 +76,7 @@ EventArray ReadEvents(const fs::path& path) {
   return all;
 }
 
-TEST_F(SimulatorTest, SameSeedSameSequenceWhateverTheThreads) {
+TEST_F(SimulatorTest, SameSeedGivesSameSequenceWithAnyThreads) {
   const SimulationSummary summary = Simulate(settings_, rig_, "test", nullptr);
   settings_.out = (folder_ / "b").string();
   settings_.threads = 3;
@@ -197,7 +197,7 @@ TEST_F(SimulatorTest, MapOnlyLeavesTheEventsAlone) {
   EXPECT_FALSE(fs::exists(folder_ / "b" / "truth.tum"));
 }
 
-TEST_F(SimulatorTest, RefusesAndLeavesNothing) {
+TEST_F(SimulatorTest, BadSettingsLeaveNothingBehind) {
   SimulationSettings bad = settings_;
   bad.trajectory.source = "builtin:flying";
   EXPECT_THAT(Error(bad), HasSubstr("builtin:handheld"));
@@ -216,7 +216,7 @@ TEST_F(SimulatorTest, RefusesAndLeavesNothing) {
   EXPECT_THAT(Error(bad), HasSubstr("cannot write"));
 }
 
-TEST_F(SimulatorTest, CutsAFileAndRefusesWhatIsNotInIt) {
+TEST_F(SimulatorTest, ClipOutsideTheFileIsRejected) {
   Simulate(settings_, rig_, "test", nullptr);
   SimulationSettings again = settings_;
   again.trajectory.source = (folder_ / "a" / "truth.tum").string();

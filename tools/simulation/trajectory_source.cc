@@ -43,7 +43,7 @@ std::string ToBody(TrajectoryFrame frame, const Rig& rig, Trajectory* poses) {
   if (frame == TrajectoryFrame::kAuto) {
     frame = marker > body ? TrajectoryFrame::kMarkerYUp : TrajectoryFrame::kBody;
     note << std::fixed << std::setprecision(2)
-         << "frame chosen by itself (upright, level, hand-held height: marker-yup " << marker << ", body "
+         << "frame detected (upright, level, hand-held height: marker-yup " << marker << ", body "
          << body << "); ";
   }
   const bool is_marker = frame == TrajectoryFrame::kMarkerYUp;

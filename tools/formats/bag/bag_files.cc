@@ -29,7 +29,7 @@ BagFiles::BagFiles(const std::vector<std::string>& paths) {
       throw std::runtime_error(path +
                                ": has no index: it was cut off; copy it again, or run rosbag reindex on it");
     } catch (const std::exception& error) {
-      throw std::runtime_error(path + ": is no whole ROS 1 bag (" + error.what() + "); copy it again");
+      throw std::runtime_error(path + ": is not a complete ROS 1 bag (" + error.what() + "); copy it again");
     }
   }
 }
@@ -48,15 +48,15 @@ std::string BagFiles::Topics() const {
   return topics.empty() ? "none" : Join(topics, ", ");
 }
 
-std::string BagFiles::FindTopic(const std::vector<std::string>& types, const std::string& wanted,
+std::string BagFiles::FindTopic(const std::vector<std::string>& types, const std::string& requested,
                                 const std::string& option) const {
   const auto fits = [&](const std::string& type) {
     return std::find(types.begin(), types.end(), type) != types.end();
   };
-  if (!wanted.empty()) {
-    const auto found = types_.find(wanted);
-    if (found != types_.end() && fits(found->second)) return wanted;
-    throw std::runtime_error(Names() + ": " + option + " " + wanted + ": there is no such topic of type " +
+  if (!requested.empty()) {
+    const auto found = types_.find(requested);
+    if (found != types_.end() && fits(found->second)) return requested;
+    throw std::runtime_error(Names() + ": " + option + " " + requested + ": there is no such topic of type " +
                              Join(types, " or ") + "; topics: " + Topics());
   }
   std::vector<std::string> candidates;

@@ -18,13 +18,13 @@ class BagFiles {
   explicit BagFiles(const std::vector<std::string>& paths);
   ~BagFiles();
 
-  /// The topic of one of these types: `wanted`, or, where that is empty, the only one there is. Empty where
-  /// there is none and none is wanted. Otherwise throws std::runtime_error that lists the topics and names
+  /// The topic of one of these types: `requested`, or, where that is empty, the only one there is. Empty where
+  /// there is none and none is requested. Otherwise throws std::runtime_error that lists the topics and names
   /// `option`.
   template <std::size_t n>
-  std::string FindTopic(const char* const (&types)[n], const std::string& wanted,
+  std::string FindTopic(const char* const (&types)[n], const std::string& requested,
                         const std::string& option) const {
-    return FindTopic(std::vector<std::string>(types, types + n), wanted, option);
+    return FindTopic(std::vector<std::string>(types, types + n), requested, option);
   }
 
   const std::vector<std::unique_ptr<rosbag::Bag>>& bags() const { return bags_; }
@@ -32,7 +32,7 @@ class BagFiles {
   std::string Topics() const;  // all topics with their types
 
  private:
-  std::string FindTopic(const std::vector<std::string>& types, const std::string& wanted,
+  std::string FindTopic(const std::vector<std::string>& types, const std::string& requested,
                         const std::string& option) const;
 
   std::vector<std::unique_ptr<rosbag::Bag>> bags_;

@@ -49,14 +49,14 @@ TEST_F(BagFilesTest, TopicsAreFoundByTypeOrName) {
   }
 }
 
-TEST_F(BagFilesTest, WhatIsNoWholeBagIsRefused) {
+TEST_F(BagFilesTest, IncompleteBagsAreRejected) {
   const auto size = std::filesystem::file_size(path_);
   for (const double share : {0.99, 0.5, 0.1, 0.001, 0.0}) {
     std::filesystem::resize_file(path_, static_cast<std::uintmax_t>(share * static_cast<double>(size)));
     EXPECT_THAT([&] { BagFiles({path_}); }, ThrowsMessage<std::runtime_error>(HasSubstr(path_))) << share;
   }
-  std::ofstream(path_) << "this is no bag at all\n";
-  EXPECT_THAT([&] { BagFiles({path_}); }, ThrowsMessage<std::runtime_error>(HasSubstr("no whole ROS 1 bag")));
+  std::ofstream(path_) << "this is not a bag\n";
+  EXPECT_THAT([&] { BagFiles({path_}); }, ThrowsMessage<std::runtime_error>(HasSubstr("not a complete ROS 1 bag")));
   EXPECT_THAT(
       [&] {
         BagFiles({path_, "/no/such.bag"});

@@ -27,7 +27,7 @@ ImportStreams ReadStreams(const BagImport& job, const BagFiles& files, const std
   return streams;
 }
 
-std::string Wanted(const std::string& topic, const BagFiles& files, const char* what) {
+std::string Required(const std::string& topic, const BagFiles& files, const char* what) {
   if (topic.empty()) {
     throw std::runtime_error(files.Names() + ": holds no " + what + "; topics: " + files.Topics() +
                              "; if another bag holds it, give that file too");
@@ -40,10 +40,10 @@ std::string Wanted(const std::string& topic, const BagFiles& files, const char* 
 ImportSummary ImportBag(const BagImport& job, const std::function<void(double)>& progress) {
   const BagFiles files(job.files);
   const std::string events_topic =
-      Wanted(files.FindTopic(kEventTypes, job.events_topic, "--events-topic"), files,
+      Required(files.FindTopic(kEventTypes, job.events_topic, "--events-topic"), files,
              "events (dvs_msgs/EventArray or prophesee_event_msgs/EventArray)");
   const std::string imu_topic =
-      Wanted(files.FindTopic(kImuTypes, job.imu_topic, "--imu-topic"), files, "IMU (sensor_msgs/Imu)");
+      Required(files.FindTopic(kImuTypes, job.imu_topic, "--imu-topic"), files, "IMU (sensor_msgs/Imu)");
   const std::string truth_topic = files.FindTopic(kTruthTypes, job.truth_topic, "--truth-topic");
   ImportStreams streams = ReadStreams(job, files, imu_topic, truth_topic);
   BagEvents events(files, events_topic, job.rig.camera.width, job.rig.camera.height);

@@ -84,7 +84,7 @@ class BagImportTest : public ::testing::Test {
   BagImport job_;
 };
 
-TEST_F(BagImportTest, EverythingComesOutAsItWentInHoweverCompressed) {
+TEST_F(BagImportTest, StreamsRoundTripUnderEveryCompression) {
   for (const auto compression :
        {rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4}) {
     MakeBag(compression);
@@ -116,7 +116,7 @@ TEST_F(BagImportTest, TruthBecomesTheBodyInTheMap) {
   EXPECT_TRUE(out.truth[9].pose.p.isApprox(made_.truth[9].pose * up + moved, 1e-12));
 }
 
-TEST_F(BagImportTest, WhatCannotBeUsedIsCountedAndLeftOut) {
+TEST_F(BagImportTest, InvalidEntriesAreCountedAndDropped) {
   MakeBag();
   rosbag::Bag bag(Path("all.bag"), rosbag::bagmode::Append);
   const Utime t = kStart + 600'000;

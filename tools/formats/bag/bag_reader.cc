@@ -8,7 +8,7 @@
 namespace evit::formats {
 namespace {
 
-// More than any driver sends at once; a forged length must not make us reserve what it says.
+// More than any driver sends at once; a forged length must not decide how much memory is reserved.
 constexpr std::uint32_t kMaxMessage = 1U << 28;  // bytes: 20 million events
 
 }  // namespace
@@ -22,9 +22,9 @@ struct BagReader::Impl {
 
 BagReader::BagReader(const BagFiles& files, const std::set<std::string>& topics)
     : impl_(std::make_unique<Impl>()) {
-  const auto wanted = [topics](const rosbag::ConnectionInfo* c) { return topics.count(c->topic) > 0; };
+  const auto selected = [topics](const rosbag::ConnectionInfo* c) { return topics.count(c->topic) > 0; };
   for (const auto& bag : files.bags()) {
-    impl_->view.addQuery(*bag, wanted);
+    impl_->view.addQuery(*bag, selected);
     rosbag::View own(*bag);
     for (const rosbag::ConnectionInfo* c : own.getConnections())
       impl_->files[c->header.get()] = bag->getFileName();

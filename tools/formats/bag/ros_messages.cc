@@ -28,9 +28,9 @@ class Cursor {
 
   const std::uint8_t* Take(std::size_t n, const char* field) {
     if (n > left_) {
-      throw std::runtime_error(std::string(field) + " wants " + std::to_string(n) +
+      throw std::runtime_error(std::string(field) + " needs " + std::to_string(n) +
                                " bytes, the message has " + std::to_string(left_) +
-                               " left: the bag is damaged, or the type another one");
+                               " left; the bag is damaged or its type is another one");
     }
     const std::uint8_t* begin = at_;
     at_ += n;
@@ -49,7 +49,7 @@ class Cursor {
   void End() const {
     if (left_ == 0) return;
     throw std::runtime_error(std::to_string(left_) +
-                             " bytes too many: the bag is damaged, or the type another one");
+                             " bytes too many; the bag is damaged or its type is another one");
   }
 
  private:

@@ -23,7 +23,7 @@ TEST(RosMessages, NanosecondsAreRoundedToMicroseconds) {
   EXPECT_EQ(DecodeImu(Data(bytes), bytes.size()).t, 1'642'661'138'836'531);
 }
 
-TEST(RosMessages, EveryCutAndEverySurplusIsNoticed) {
+TEST(RosMessages, TruncatedAndOverlongMessagesAreRejected) {
   EventArray events;
   for (int k = 0; k < 3; ++k) events.push_back(k, 1, 2, 1);
   const std::string array = EventsMessage(kEventTypes[0], events, 0, 3).bytes, imu = ImuMessage({}).bytes,
@@ -48,7 +48,7 @@ TEST(RosMessages, EveryCutAndEverySurplusIsNoticed) {
   }
 }
 
-TEST(RosMessages, AForgedCountReservesNothing) {
+TEST(RosMessages, ForgedCountDoesNotReserveMemory) {
   EventArray events;
   events.push_back(1, 1, 1, 1);
   std::string bytes = EventsMessage(kEventTypes[0], events, 0, 1).bytes;
@@ -57,7 +57,7 @@ TEST(RosMessages, AForgedCountReservesNothing) {
   EventFilter filter(240, 180);
   EventArray out;
   EXPECT_THAT([&] { DecodeEventArray(Data(bytes), bytes.size(), &filter, &out); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("events wants 55834574835 bytes")));
+              ThrowsMessage<std::runtime_error>(HasSubstr("events needs 55834574835 bytes")));
 }
 
 }  // namespace

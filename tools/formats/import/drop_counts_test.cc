@@ -5,7 +5,7 @@
 namespace evit::formats {
 namespace {
 
-TEST(DropCounts, AreSaidWithTheirReasonsOrNotAtAll) {
+TEST(DropCounts, TextListsReasonsAndIsEmptyWithoutDrops) {
   EXPECT_EQ(DropText({}, "events"), "");
   EXPECT_EQ(DropText({3, 0, 0}, "events"), "3 events dropped: 3 not later than the one before");
   EXPECT_EQ(

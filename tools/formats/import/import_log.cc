@@ -34,7 +34,7 @@ void CheckHole(const std::string& name, Utime before, Utime after) {
   if (after - before <= kMaxHole) return;
   throw std::runtime_error(name + ": the time jumps from " + DecimalSeconds(before) + " s to " +
                            DecimalSeconds(after) +
-                           " s: a damaged time stamp, or several recordings; import each alone");
+                           " s: a damaged time stamp, or several recordings; import each recording separately");
 }
 
 void CheckImu(const ImportStreams& streams, Utime first_event) {
@@ -44,7 +44,7 @@ void CheckImu(const ImportStreams& streams, Utime first_event) {
   if (streams.imu.back().t < first_event) {
     throw std::runtime_error(
         streams.imu_name +
-        ": ends before the first event: the files are not of one sequence, or not of one clock");
+        ": ends before the first event: the files are from different sequences or clocks");
   }
 }
 
@@ -110,7 +110,7 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* events, ImportS
     if (streams.imu.front().t > last) {
       throw std::runtime_error(
           streams.imu_name +
-          ": begins after the last event: the files are not of one sequence, or not of one clock");
+          ": begins after the last event: the files are from different sequences or clocks");
     }
     writer.Close(std::max(last, streams.imu.back().t));
     summary.n_packets = writer.n_packets();

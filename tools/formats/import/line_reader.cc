@@ -32,7 +32,7 @@ LineReader::LineReader(const std::string& path, std::string layout)
   if (!std::filesystem::exists(path, error)) throw std::runtime_error(path + ": there is no such file");
   file_.reset(std::fopen(path.c_str(), "rb"));
   if (!file_ || std::filesystem::is_directory(path, error))
-    throw std::runtime_error(path + ": cannot be read; a text file is wanted");
+    throw std::runtime_error(path + ": cannot be read; expected a text file");
   size_ = static_cast<double>(std::filesystem::file_size(path, error));
   next_ = end_ = buffer_.data();
 }
@@ -40,11 +40,11 @@ LineReader::LineReader(const std::string& path, std::string layout)
 bool LineReader::Refill() {
   const std::size_t kept = end_ - next_;
   if (kept == buffer_.size())
-    Fail("the line does not end: a text file with lines \"" + layout_ + "\" is wanted");
+    Fail("the line does not end; expected a text file with lines \"" + layout_ + "\"");
   std::memmove(buffer_.data(), next_, kept);
   const std::size_t n = std::fread(buffer_.data() + kept, 1, buffer_.size() - kept, file_.get());
   if (n == 0 && std::ferror(file_.get()) != 0)
-    Fail("reading failed: is the disk, or the network, all right?");
+    Fail("reading failed; check the disk or the network");
   next_ = buffer_.data();
   end_ = next_ + kept + n;
   n_read_ += static_cast<double>(n);
@@ -74,14 +74,14 @@ std::string_view LineReader::Word() {
   at_ = std::find_if_not(at_, line_end_, IsGap);
   const char* begin = at_;
   at_ = std::find_if(at_, line_end_, IsGap);
-  if (begin == at_) Fail("the line ends too early: \"" + layout_ + "\" is wanted; is the file cut off?");
+  if (begin == at_) Fail("the line ends too early; expected \"" + layout_ + "\"; is the file cut off?");
   return {begin, static_cast<std::size_t>(at_ - begin)};
 }
 
 double LineReader::Number() {
   const std::string_view word = Word();
   double value = 0;
-  if (!Parse(word, &value)) Fail("\"" + std::string(word) + "\" is no number; \"" + layout_ + "\" is wanted");
+  if (!Parse(word, &value)) Fail("\"" + std::string(word) + "\" is not a number; expected \"" + layout_ + "\"");
   return value;
 }
 
@@ -89,7 +89,7 @@ std::int64_t LineReader::Integer() {
   const std::string_view word = Word();
   std::int64_t value = 0;
   if (!Parse(word, &value))
-    Fail("\"" + std::string(word) + "\" is no whole number; \"" + layout_ + "\" is wanted");
+    Fail("\"" + std::string(word) + "\" is not a whole number; expected \"" + layout_ + "\"");
   return value;
 }
 
@@ -98,8 +98,8 @@ bool LineReader::Time(Utime* t) {
   if (ParseDecimalSeconds(word, t)) return true;
   double value = 0;
   if (Parse(word, &value) && !std::isfinite(value)) return false;
-  Fail("\"" + std::string(word) + "\" is not a time in decimal seconds (no exponent); \"" + layout_ +
-       "\" is wanted");
+  Fail("\"" + std::string(word) + "\" is not a time in decimal seconds (no exponent); expected \"" + layout_ +
+       "\"");
 }
 
 void LineReader::End() {

@@ -19,7 +19,7 @@ std::vector<std::vector<double>> ReadRows(const std::string& path, std::size_t c
   std::ifstream file(path);
   if (!file)
     throw std::runtime_error(path +
-                             ": cannot be read; a folder of images/, depth/, poses.txt and K.txt is wanted");
+                             ": cannot be read; expected a folder with images/, depth/, poses.txt and K.txt");
   std::vector<std::vector<double>> rows;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
@@ -28,8 +28,8 @@ std::vector<std::vector<double>> ReadRows(const std::string& path, std::size_t c
     std::vector<double> row;
     for (double v = 0; words >> v;) row.push_back(v);
     if (!words.eof() || row.size() != columns) {
-      throw std::runtime_error(path + ": line " + std::to_string(number) + ": " + std::to_string(columns) +
-                               " numbers are wanted");
+      throw std::runtime_error(path + ": line " + std::to_string(number) + ": expected " +
+                               std::to_string(columns) + " numbers");
     }
     rows.push_back(row);
   }
@@ -53,25 +53,25 @@ RgbdFolder::RgbdFolder(const std::string& path) : path_(path) {
   std::error_code error;
   if (!fs::is_directory(path, error))
     throw std::runtime_error(path +
-                             ": no such folder; one of images/, depth/, poses.txt and K.txt is wanted");
+                             ": no such folder; expected one with images/, depth/, poses.txt and K.txt");
   for (const auto& entry : fs::directory_iterator(path + "/images", error)) {
     if (entry.is_regular_file()) names_.push_back(entry.path().filename().string());
   }
   if (error || names_.empty())
     throw std::runtime_error(
-        path + "/images: holds no image; a folder of images/, depth/, poses.txt and K.txt is wanted");
+        path + "/images: contains no image; expected a folder with images/, depth/, poses.txt and K.txt");
   std::sort(names_.begin(), names_.end());
   const std::string poses = path + "/poses.txt", intrinsics = path + "/K.txt";
   for (const std::vector<double>& row : ReadRows(poses, 16))
     poses_.push_back(PoseOf(row, poses, poses_.size()));
   if (poses_.size() != names_.size()) {
     throw std::runtime_error(poses + ": has " + std::to_string(poses_.size()) + " poses, but there are " +
-                             std::to_string(names_.size()) + " images: one row for each is wanted");
+                             std::to_string(names_.size()) + " images; expected one row for each");
   }
   const auto rows = ReadRows(intrinsics, 3);
   if (rows.size() != 3 || !(rows[0][0] > 0 && rows[1][1] > 0)) {
     throw std::runtime_error(intrinsics +
-                             ": three rows of a camera matrix are wanted, focal lengths positive");
+                             ": expected three rows of a camera matrix with positive focal lengths");
   }
   camera_.fx = rows[0][0];
   camera_.fy = rows[1][1];
@@ -84,16 +84,16 @@ RgbdView RgbdFolder::Load(std::size_t k) const {
   const std::string depth_path = path_ + "/depth/" + fs::path(names_[k]).stem().string() + ".png";
   cv::Mat image = cv::imread(image_path, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
   const cv::Mat depth = cv::imread(depth_path, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
-  if (image.empty()) throw std::runtime_error(image_path + ": is no image that can be read");
+  if (image.empty()) throw std::runtime_error(image_path + ": cannot be read as an image");
   if (depth.empty())
-    throw std::runtime_error(depth_path + ": is no image that can be read; each image needs its depth");
-  if (depth.type() != CV_16UC1) throw std::runtime_error(depth_path + ": 16 bits of millimetres are wanted");
+    throw std::runtime_error(depth_path + ": cannot be read as an image; each image needs its depth");
+  if (depth.type() != CV_16UC1) throw std::runtime_error(depth_path + ": expected 16-bit depth in millimetres");
   if (depth.size() != image.size())
     throw std::runtime_error(depth_path + ": is not of the size of " + image_path);
   if (image.channels() == 3) cv::cvtColor(image, image, cv::COLOR_BGR2GRAY);
   if (image.channels() == 4) cv::cvtColor(image, image, cv::COLOR_BGRA2GRAY);
   if (image.depth() != CV_8U && image.depth() != CV_16U)
-    throw std::runtime_error(image_path + ": 8 or 16 bits a channel are wanted");
+    throw std::runtime_error(image_path + ": expected 8 or 16 bits per channel");
   RgbdView view;
   view.T_map_camera = poses_[k];
   view.camera = camera_;

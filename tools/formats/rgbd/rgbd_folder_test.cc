@@ -61,28 +61,28 @@ TEST_F(RgbdFolderTest, ReadsImageDepthPoseAndCamera) {
   EXPECT_NEAR(view.intensity[100], 10.0 / 255, 1e-6);
 }
 
-TEST_F(RgbdFolderTest, WhatIsWrongIsNamed) {
+TEST_F(RgbdFolderTest, ErrorsNameFileAndProblem) {
   EXPECT_EQ(Error(), "");
   Write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n");
   EXPECT_THAT(Error(), HasSubstr("has 1 poses, but there are 3 images"));
   Write("poses.txt", "1 0 0 0\n");
-  EXPECT_THAT(Error(), HasSubstr("poses.txt: line 1: 16 numbers are wanted"));
+  EXPECT_THAT(Error(), HasSubstr("poses.txt: line 1: expected 16 numbers"));
   Write("poses.txt", "2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n");
   EXPECT_THAT(Error(), HasSubstr("pose 0: no camera-to-map transform"));
   SetUp();
   Write("K.txt", "30 0 15.5\n0 x 11.5\n0 0 1\n");
-  EXPECT_THAT(Error(), HasSubstr("K.txt: line 2: 3 numbers"));
+  EXPECT_THAT(Error(), HasSubstr("K.txt: line 2: expected 3 numbers"));
   Write("K.txt", "30 0 15.5\n");
   EXPECT_THAT(Error(), HasSubstr("three rows"));
   SetUp();
   cv::imwrite(path_ + "/depth/2.png", cv::Mat(24, 32, CV_8UC1, cv::Scalar(9)));
-  EXPECT_THAT(Error(), HasSubstr("2.png: 16 bits of millimetres"));
+  EXPECT_THAT(Error(), HasSubstr("2.png: expected 16-bit depth"));
   cv::imwrite(path_ + "/depth/2.png", cv::Mat(12, 32, CV_16UC1, cv::Scalar(9)));
   EXPECT_THAT(Error(), HasSubstr("is not of the size of"));
   fs::remove(path_ + "/depth/2.png");
   EXPECT_THAT(Error(), HasSubstr("each image needs its depth"));
   fs::remove_all(path_ + "/images");
-  EXPECT_THAT(Error(), HasSubstr("/images: holds no image"));
+  EXPECT_THAT(Error(), HasSubstr("/images: contains no image"));
 }
 
 // Real images, where they are there.

@@ -17,7 +17,7 @@ bool RpgEvents::Read(EventArray* events) {
     const bool finite = lines_.Time(&t);
     const std::int64_t x = lines_.Integer(), y = lines_.Integer(), p = lines_.Integer();
     lines_.End();
-    if (p != 0 && p != 1) lines_.Fail("the polarity is " + std::to_string(p) + "; 0 or 1 is wanted: t x y p");
+    if (p != 0 && p != 1) lines_.Fail("the polarity is " + std::to_string(p) + "; expected 0 or 1: t x y p");
     if (!finite) {
       filter_.CountInvalid();
     } else if (filter_.Keep(t, x, y)) {

@@ -66,7 +66,7 @@ class RpgImportTest : public ::testing::Test {
   RpgImport job_;
 };
 
-TEST_F(RpgImportTest, EverythingComesOutAsItWentIn) {
+TEST_F(RpgImportTest, StreamsRoundTrip) {
   const ImportSummary summary = Import();
   EXPECT_EQ(summary.n_events, static_cast<std::int64_t>(made_.events.size()));
   EXPECT_EQ(summary.n_imu, 500);
@@ -78,7 +78,7 @@ TEST_F(RpgImportTest, EverythingComesOutAsItWentIn) {
   ExpectSame(out.truth, made_.truth);
 }
 
-TEST_F(RpgImportTest, WhatCannotBeUsedIsCountedAndLeftOut) {
+TEST_F(RpgImportTest, InvalidEntriesAreCountedAndDropped) {
   Append("events.txt", "0.1 1 1 1\nnan 1 1 0\n0.6 240 0 1\n0.6 0 180 1\n0.6 -1 0 1\n0.600000 239 179 1\n");
   Append("imu.txt", "0.499003 0 0 0 0 0 0\n0.5 0 0 nan 0 0 0\n0.51 0 0 9 0 0 inf\n");
   Append("groundtruth.txt", "0.5 0 0 0 0 0 0 0\n0.5 nan 0 0 0 0 0 1\n0.1 0 0 0 0 0 0 1\n");
@@ -97,7 +97,7 @@ TEST_F(RpgImportTest, WhatCannotBeUsedIsCountedAndLeftOut) {
   ExpectSame(out.truth, made_.truth);
 }
 
-TEST_F(RpgImportTest, RigIsMadeOfTheCalibration) {
+TEST_F(RpgImportTest, RigIsWrittenFromTheCalibration) {
   job_.rig_out = (folder_ / "rig.textproto").string();
   job_.T_body_camera = {Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {0.01, 0.02, 0.03}};
   job_.imu_noise.gyro_density = 0.0125;
@@ -148,7 +148,7 @@ TEST_F(RpgImportTest, ErrorsNameFileLineAndRemedy) {
   EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(HasSubstr("/no/such")));
 }
 
-TEST_F(RpgImportTest, StreamsOfTwoClocksAreRefused) {
+TEST_F(RpgImportTest, StreamsOfTwoClocksAreRejected) {
   std::ofstream(In("imu.txt")) << "1468941032.0 0 0 0 0 0 0\n1468941032.1 0 0 0 0 0 0\n";
   EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(
                                      AllOf(HasSubstr("imu.txt"), HasSubstr("after the last event"))));

@@ -39,18 +39,18 @@ Trajectory ReadRpgTruth(const std::string& path, DropCounts* dropped) {
 
 Camera ReadRpgCamera(const std::string& path, int width, int height) {
   LineReader lines(path, "fx fy cx cy k1 k2 p1 p2 k3");
-  if (!lines.Next()) throw std::runtime_error(path + ": is empty; fx fy cx cy k1 k2 p1 p2 k3 is wanted");
+  if (!lines.Next()) throw std::runtime_error(path + ": is empty; expected fx fy cx cy k1 k2 p1 p2 k3");
   Camera camera;
   camera.width = width;
   camera.height = height;
   for (double* x : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *x = lines.Number();
   for (double& x : camera.distortion) {
     x = lines.Number();
-    if (!std::isfinite(x)) lines.Fail("k1 k2 p1 p2 k3: finite numbers are wanted");
+    if (!std::isfinite(x)) lines.Fail("k1 k2 p1 p2 k3: expected finite numbers");
   }
   lines.End();
   const auto positive = [](double x) { return std::isfinite(x) && x > 0; };
-  if (!positive(camera.fx) || !positive(camera.fy)) lines.Fail("fx fy: positive numbers are wanted");
+  if (!positive(camera.fx) || !positive(camera.fy)) lines.Fail("fx fy: expected positive numbers");
   if (!(camera.cx >= 0 && camera.cx <= width && camera.cy >= 0 && camera.cy <= height)) {
     lines.Fail("cx cy: the principal point is not in an image of " + std::to_string(width) + "x" +
                std::to_string(height) + "; give the image's size as --size WxH");

@@ -51,7 +51,7 @@ EventFileReader::EventFileReader(const std::string& path) : impl_(std::make_uniq
   r.path = path;
   if (!std::filesystem::exists(path)) r.Fail("there is no such file");
   r.file = H5Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!r.file.ok()) r.Fail("is no whole HDF5 file: truncated or damaged; download it again");
+  if (!r.file.ok()) r.Fail("is not a complete HDF5 file (truncated or damaged); download it again");
   r.x = r.Open("events/x");
   r.y = r.Open("events/y");
   r.p = r.Open("events/p");
@@ -59,7 +59,7 @@ EventFileReader::EventFileReader(const std::string& path) : impl_(std::make_uniq
   const H5Handle offset = r.Open("t_offset");
   if (Impl::Length(offset) != 1 ||
       H5Dread(offset.get(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &r.t_offset) < 0) {
-    r.Fail("dataset t_offset: one integer (us) is wanted");
+    r.Fail("dataset t_offset: expected one integer (us)");
   }
   r.size = Impl::Length(r.t);
   for (const auto& [dataset, name] : {std::pair(&r.x, "x"), std::pair(&r.y, "y"), std::pair(&r.p, "p")}) {

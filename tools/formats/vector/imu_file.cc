@@ -29,7 +29,7 @@ std::vector<ImuSample> ReadImuFile(const std::string& path) {
     for (Eigen::Vector3d* v : {&s.gyro, &s.accel}) {
       for (int k = 0; k < 3; ++k) {
         if (!(words >> (*v)[k]) || !std::isfinite((*v)[k])) {
-          fail("seven finite numbers are wanted: timestamp gx gy gz ax ay az");
+          fail("expected seven finite numbers: timestamp gx gy gz ax ay az");
         }
       }
     }

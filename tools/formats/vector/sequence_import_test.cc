@@ -93,7 +93,7 @@ Message Decode(const LogReader& log, const LogEntry& entry) {
   return message;
 }
 
-TEST_F(SequenceImportTest, EventsComeOutAsTheyWentInCutSmallAndWithoutHoles) {
+TEST_F(SequenceImportTest, EventsRoundTripInSmallPackets) {
   const ImportSummary summary = Import();
   EXPECT_EQ(summary.n_events, static_cast<std::int64_t>(events_.size()));
   const LogReader log(job_.out);
@@ -122,7 +122,7 @@ TEST_F(SequenceImportTest, EventsComeOutAsTheyWentInCutSmallAndWithoutHoles) {
   EXPECT_EQ(out.p, events_.p);
 }
 
-TEST_F(SequenceImportTest, ImuSamplesOneByOneInFullPrecision) {
+TEST_F(SequenceImportTest, ImuSamplesKeepFullPrecision) {
   EXPECT_EQ(Import().n_imu, 200);
   const LogReader log(job_.out);
   int n = 0;
@@ -179,7 +179,7 @@ TEST_F(SequenceImportTest, TruthMayBeAbsent) {
   EXPECT_THAT(Outputs(), ::testing::ElementsAre("out.lcmlog"));
 }
 
-TEST_F(SequenceImportTest, SameFilesSameLog) {
+TEST_F(SequenceImportTest, SameFilesGiveTheSameLog) {
   const auto bytes = [&] {
     Import();
     std::ifstream file(job_.out, std::ios::binary);
@@ -189,7 +189,7 @@ TEST_F(SequenceImportTest, SameFilesSameLog) {
   EXPECT_TRUE(first == bytes());
 }
 
-TEST_F(SequenceImportTest, WrongNameListsWhatIsThere) {
+TEST_F(SequenceImportTest, WrongNameListsTheSequences) {
   job_.name = "desk";
   EXPECT_THAT([&] { Import(); },
               ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("desk"), HasSubstr("found there: made_up"))));

@@ -9,7 +9,7 @@
 namespace evit::formats {
 namespace {
 
-// Largest chunk that is believed: a forged frame header must not make us reserve what it says.
+// Largest chunk that is accepted: a forged frame header must not decide how much memory is reserved.
 constexpr unsigned long long kMaxChunk = 1ULL << 30;
 
 // HDF5's contract: 0 is failure; the buffer is replaced by one from malloc.
