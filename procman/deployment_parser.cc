@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "procman/deployment.h"
-#include "procman/lexer.h"
+#include "procman/token.h"
 
 namespace evit::procman {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/bus/bus.h"
-#include "procman/proc_usage.h"
+#include "procman/process_usage.h"
 #include "procman/supervisor.h"
 #include "procman/wire.h"
 

@@ -1,18 +1,16 @@
 #include "procman/managed_process.h"
 
-#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
-#include <stdexcept>
 #include <utility>
+
+#include "procman/launched_process.h"
 
 namespace evit::procman {
 namespace {
@@ -21,33 +19,30 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kFirstDelay{10}, kLongestDelay{1000};
 constexpr milliseconds kEarly{1000};  // a run that lasts longer was a good one
-constexpr std::size_t kWords = 4096;  // bytes of output kept for last words
-constexpr int kOutputPerTick =
-    1 << 18;  // bytes: a command that never stops talking does not hold up the others
 
 double Seconds(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
 
+std::string LogFile(const std::string& folder, std::string id) {
+  if (folder.empty()) return "";
+  std::replace(id.begin(), id.end(), '/', '_');
+  return (std::filesystem::path(folder) / (id + ".log")).string();
+}
+
 }  // namespace
 
 ManagedProcess::ManagedProcess(ProcmanCommand command, Places places, Sink sink)
-    : command_(std::move(command)), places_(std::move(places)), sink_(std::move(sink)) {
-  if (places_.logs.empty()) return;
-  std::string name = command_.id;
-  std::replace(name.begin(), name.end(), '/', '_');
-  const std::string path = (std::filesystem::path(places_.logs) / (name + ".log")).string();
-  log_ = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644);
-  if (log_ < 0) throw std::runtime_error(path + ": cannot be written: " + std::strerror(errno));
-}
+    : command_(std::move(command)),
+      places_(std::move(places)),
+      sink_(std::move(sink)),
+      output_(LogFile(places_.logs, command_.id)) {}
 
 ManagedProcess::~ManagedProcess() {
   if (pid_ > 0) {
     Signal(SIGKILL);
     waitpid(pid_, nullptr, 0);
   }
-  if (output_ >= 0) close(output_);
-  if (log_ >= 0) close(log_);
 }
 
 void ManagedProcess::Signal(int signal) const {
@@ -89,8 +84,8 @@ void ManagedProcess::Tick() {
     ReadOutput();
     Reap();
     if (state_ == State::kStopping && now >= kill_at_) {
-      Say("still runs " + std::to_string(static_cast<int>(command_.stop_time_allowed)) + " s after signal " +
-          std::to_string(command_.stop_signal) + ": killing it");
+      Say("still running " + std::to_string(static_cast<int>(command_.stop_time_allowed)) +
+          " s after signal " + std::to_string(command_.stop_signal) + ": killing it");
       Signal(SIGKILL);
       kill_at_ = now + kLongestDelay;
     }
@@ -99,36 +94,34 @@ void ManagedProcess::Tick() {
   try {
     Launch();
   } catch (const std::exception& error) {
-    Say(std::string("cannot be started again: ") + error.what());
+    Say(std::string("cannot be restarted: ") + error.what());
     delay_ = std::clamp(2 * delay_, kFirstDelay, kLongestDelay);
     start_at_ = now + delay_;
     ++early_deaths_;
   }
 }
 
+void ManagedProcess::Launch() {
+  const LaunchedProcess launched = LaunchProcess(command_.id, command_.exec, places_.programs);
+  output_.Open(launched.output);
+  pid_ = launched.pid;
+  state_ = State::kRunning;
+  died_ = false;
+  started_ = Clock::now();
+  ++runs_;
+}
+
 void ManagedProcess::ReadOutput() {
-  std::array<char, 16384> buffer{};
-  for (int taken = 0; taken < kOutputPerTick;) {
-    const ssize_t n = read(output_, buffer.data(), buffer.size());
-    if (n <= 0) return;
-    taken += static_cast<int>(n);
-    const std::string text(buffer.data(), static_cast<std::size_t>(n));
-    // A full disk must not stop the command: only the copy of this output in the file is lost.
-    if (log_ >= 0 && write(log_, text.data(), text.size()) < 0) errno = 0;
-    last_words_ += text;
-    if (last_words_.size() > kWords) last_words_.erase(0, last_words_.size() - kWords);
-    sink_(command_.id, text);
-  }
+  output_.Read([this](const std::string& text) { sink_(command_.id, text); });
 }
 
 void ManagedProcess::Reap() {
   rusage usage{};
-  if (wait4(pid_, &status_, WNOHANG, &usage) != pid_) return;
-  ReadOutput();  // its last words
-  close(output_);
-  output_ = -1;
-  cpu_seconds_ += Seconds(usage.ru_utime) + Seconds(usage.ru_stime);
-  peak_mb_ = std::max(peak_mb_, static_cast<double>(usage.ru_maxrss) / 1024);
+  if (wait4(pid_, &ended_.status, WNOHANG, &usage) != pid_) return;
+  ReadOutput();  // the rest of it
+  output_.Close();
+  ended_.cpu_seconds += Seconds(usage.ru_utime) + Seconds(usage.ru_stime);
+  ended_.peak_mb = std::max(ended_.peak_mb, static_cast<double>(usage.ru_maxrss) / 1024);
   kill(-pid_, SIGKILL);  // what it started and left behind
   pid_ = 0;
   const Clock::time_point now = Clock::now();
@@ -147,35 +140,20 @@ void ManagedProcess::Reap() {
   }
   delay_ = early ? std::clamp(2 * delay_, kFirstDelay, kLongestDelay) : kFirstDelay;
   start_at_ = now + delay_;
-  Say("died with " + end() + "; starting it again in " + std::to_string(delay_.count()) + " ms");
+  Say("died with " + end() + "; restarting it in " + std::to_string(delay_.count()) + " ms");
 }
 
 std::string ManagedProcess::end() const {
   if (runs_ == 0) return "never started";
-  if (WIFSIGNALED(status_)) {
-    return "signal " + std::to_string(WTERMSIG(status_)) + " (" + strsignal(WTERMSIG(status_)) + ")";
+  if (WIFSIGNALED(ended_.status)) {
+    return "signal " + std::to_string(WTERMSIG(ended_.status)) + " (" + strsignal(WTERMSIG(ended_.status)) +
+           ")";
   }
-  return "exit code " + std::to_string(WEXITSTATUS(status_));
+  return "exit code " + std::to_string(WEXITSTATUS(ended_.status));
 }
 
 int ManagedProcess::exit_code() const {
-  return WIFSIGNALED(status_) ? 128 + WTERMSIG(status_) : WEXITSTATUS(status_);
-}
-
-std::string ManagedProcess::LastWords(int lines) const {
-  std::string words = last_words_;
-  while (!words.empty() && words.back() == '\n') words.pop_back();
-  std::size_t begin = words.size();
-  for (; lines > 0 && begin != std::string::npos && begin > 0; --lines) begin = words.rfind('\n', begin - 1);
-  words.erase(0, begin == std::string::npos || begin == 0 ? 0 : begin + 1);
-  if (words.empty()) return "";
-  std::string text;
-  for (std::size_t at = 0; at <= words.size();) {
-    const std::size_t end = std::min(words.find('\n', at), words.size());
-    text += "\n  " + words.substr(at, end - at);
-    at = end + 1;
-  }
-  return text;
+  return WIFSIGNALED(ended_.status) ? 128 + WTERMSIG(ended_.status) : WEXITSTATUS(ended_.status);
 }
 
 }  // namespace evit::procman

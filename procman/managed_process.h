@@ -6,14 +6,13 @@
 #include <functional>
 #include <string>
 
-#include "procman/command_line.h"
-#include "procman/deployment.h"
+#include "procman/process_output.h"
+#include "procman/procman_command.h"
 
 namespace evit::procman {
 
-/// One command as a process: started, asked to stop, killed where it does not, and started again with a
-/// growing delay where it dies by itself. It never outlives this process: the kernel kills it then, whatever
-/// happens.
+/// One command as a process: started, asked to stop, killed if it does not, and restarted with a growing
+/// delay if it dies by itself. It never outlives this process: the kernel sees to that.
 class ManagedProcess {
  public:
   using Clock = std::chrono::steady_clock;
@@ -59,16 +58,21 @@ class ManagedProcess {
   /// How the last run ended: "exit code 1" or "signal 11 (Segmentation fault)"; as a number like a shell's.
   std::string end() const;
   int exit_code() const;
-  bool ended_well() const { return runs_ > 0 && pid_ == 0 && status_ == 0; }
+  bool ended_well() const { return runs_ > 0 && pid_ == 0 && ended_.status == 0; }
   /// CPU seconds and peak memory (MB) of all ended runs.
-  double cpu_seconds() const { return cpu_seconds_; }
-  double peak_mb() const { return peak_mb_; }
+  double cpu_seconds() const { return ended_.cpu_seconds; }
+  double peak_mb() const { return ended_.peak_mb; }
   /// The last lines of its output.
-  std::string LastWords(int lines = 3) const;
+  std::string LastWords(int lines = 3) const { return output_.LastLines(lines); }
 
  private:
+  /// The runs that have ended.
+  struct Ended {
+    int status = 0;                       // of the last one, as wait(2) gives it
+    double cpu_seconds = 0, peak_mb = 0;  // of all
+  };
+
   void Launch();
-  pid_t Fork(const std::string& program, const CommandLine& line, int output);
   void ReadOutput();
   void Reap();
   void Signal(int signal) const;
@@ -79,15 +83,13 @@ class ManagedProcess {
   Sink sink_;
   State state_ = State::kStopped;
   pid_t pid_ = 0;
-  int output_ = -1;  // read end of its stdout and stderr
-  int log_ = -1;
-  int runs_ = 0, early_deaths_ = 0, status_ = 0;
+  ProcessOutput output_;
+  int runs_ = 0, early_deaths_ = 0;
   bool start_again_ = false;  // Restart
   bool died_ = false;         // the last run ended by itself
   Clock::time_point started_, kill_at_, start_at_;
   std::chrono::milliseconds delay_{0};
-  double cpu_seconds_ = 0, peak_mb_ = 0;
-  std::string last_words_;  // the end of its output
+  Ended ended_;
 };
 
 }  // namespace evit::procman

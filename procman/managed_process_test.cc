@@ -104,7 +104,7 @@ TEST_F(ManagedProcessTest, RestartsWithinMillisecondsAfterAKill) {
   kill(first, SIGKILL);
   ASSERT_TRUE(TickUntil(p.get(), [&] { return p->runs() == 2; }));
   EXPECT_NE(p->pid(), first);
-  EXPECT_TRUE(Said("died with signal 9 (Killed); starting it again in 10 ms"));
+  EXPECT_TRUE(Said("died with signal 9 (Killed); restarting it in 10 ms"));
 }
 
 TEST_F(ManagedProcessTest, ProcessThatIgnoresSignalsIsKilled) {

@@ -3,8 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -12,6 +10,7 @@
 #include "common/config/field_rules.h"
 #include "common/config/rig.pb.h"
 #include "common/config/text_file.h"
+#include "common/files/whole_file.h"
 
 namespace evit {
 namespace {
@@ -155,15 +154,9 @@ void WriteRig(const std::string& path, const Rig& rig, const std::string& name, 
        << "\n# Body to the frame that the ground truth tells of, row-major 4x4.\n"
        << TransformText("T_marker_body", rig.T_marker_body) << "\ngravity: " << NumberText(rig.gravity)
        << "  # m/s^2, along -z of the map frame\n";
-  const std::string part = path + ".part";
-  std::ofstream file(part, std::ios::binary);
-  file << text.str();
-  file.close();
-  if (!file || std::rename(part.c_str(), path.c_str()) != 0) {
-    std::remove(part.c_str());
-    throw std::runtime_error(path +
-                             ": cannot be written; check that the folder exists, is writable and has room");
-  }
+  WholeFile file(path);
+  file.stream() << text.str();
+  file.Commit();
 }
 
 }  // namespace evit

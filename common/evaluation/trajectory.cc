@@ -3,42 +3,30 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "common/evaluation/decimal_time.h"
+#include "common/files/number_rows.h"
+#include "common/files/whole_file.h"
 
 namespace evit {
 
 Trajectory ReadTum(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": cannot be read; a TUM file (t x y z qx qy qz qw) is wanted");
+  NumberRows rows(path, "t x y z qx qy qz qw", "a TUM file");
   Trajectory trajectory;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    const auto fail = [&](const std::string& what) {
-      throw std::runtime_error(
-          std::string(path).append(":").append(std::to_string(number)).append(": ").append(what));
-    };
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream words(line);
-    std::string stamp;
-    if (!(words >> stamp) || stamp[0] == '#') continue;
+  while (rows.Next()) {
     StampedPose row;
-    if (!ParseDecimalSeconds(stamp, &row.t)) fail("\"" + stamp + "\" is not a time in decimal seconds");
+    if (!ParseDecimalSeconds(rows.first(), &row.t))
+      rows.Fail("\"" + rows.first() + "\" is not a time in decimal seconds");
     double v[7];
-    for (double& x : v) {
-      if (!(words >> x)) fail("eight numbers are wanted: t x y z qx qy qz qw");
-      if (!std::isfinite(x)) fail("a value is not finite");
-    }
+    for (double& x : v) x = rows.Number();
     const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
-    if (std::abs(q.norm() - 1) > 1e-2) fail("the quaternion qx qy qz qw is not of length 1");
-    if (!trajectory.empty() && row.t <= trajectory.back().t) fail("the time does not increase");
+    if (std::abs(q.norm() - 1) > 1e-2) rows.Fail("the quaternion qx qy qz qw is not of length 1");
+    if (!trajectory.empty() && row.t <= trajectory.back().t) rows.Fail("the time does not increase");
     row.pose = {q.normalized(), {v[0], v[1], v[2]}};
     trajectory.push_back(row);
   }
-  if (trajectory.empty()) throw std::runtime_error(path + ": holds no pose");
+  if (trajectory.empty()) throw std::runtime_error(path + ": contains no pose");
   return trajectory;
 }
 
@@ -52,16 +40,10 @@ std::string TumLine(const StampedPose& s) {
 }
 
 void WriteTum(const std::string& path, const Trajectory& trajectory) {
-  const std::string part = path + ".part";
-  std::ofstream file(part);
-  file << "# timestamp[s] tx ty tz[m] qx qy qz qw\n";
-  for (const StampedPose& s : trajectory) file << TumLine(s) << '\n';
-  file.close();
-  if (!file || std::rename(part.c_str(), path.c_str()) != 0) {
-    std::remove(part.c_str());
-    throw std::runtime_error(path +
-                             ": cannot be written; check that the folder exists, is writable and has room");
-  }
+  WholeFile file(path);
+  file.stream() << "# timestamp[s] tx ty tz[m] qx qy qz qw\n";
+  for (const StampedPose& s : trajectory) file.stream() << TumLine(s) << '\n';
+  file.Commit();
 }
 
 bool PoseAt(const Trajectory& trajectory, Utime t, SE3* pose, Utime max_gap) {

@@ -89,12 +89,12 @@ TEST_F(TumFile, ComplaintsNameFileLineAndFault) {
     EXPECT_NE(complaint.find(path_ + where), std::string::npos) << complaint;
     EXPECT_NE(complaint.find(what), std::string::npos) << complaint;
   };
-  expect("1 0 0 0 0 0 0 1\n2 0 0 0\n", ":2", "eight numbers");
+  expect("1 0 0 0 0 0 0 1\n2 0 0 0\n", ":2", "expected finite numbers");
   expect("1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n", ":2", "does not increase");
   expect("1 0 0 0 0 0 0 0\n", ":1", "not of length 1");
   expect("#\n1e9 0 0 0 0 0 0 1\n", ":2", "not a time");
-  expect("1 0 0 x 0 0 0 1\n", ":1", "eight numbers");
-  expect("# nothing\n", "", "holds no pose");
+  expect("1 0 0 x 0 0 0 1\n", ":1", "expected finite numbers");
+  expect("# nothing\n", "", "contains no pose");
   EXPECT_THROW(ReadTum(path_ + ".absent"), std::runtime_error);
   EXPECT_THROW(WriteTum("/nonexistent/folder/a.tum", {}), std::runtime_error);
 }

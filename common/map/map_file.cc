@@ -10,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/files/whole_file.h"
 #include "common/map/map_formats.h"
 
 namespace evit {
@@ -37,7 +38,7 @@ void ReadXyz(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std
     if (!ParseThree(line, p.data())) {
       if (points->empty() && std::isalpha(static_cast<unsigned char>(line[first])) != 0)
         continue;  // column names
-      throw std::runtime_error("line " + std::to_string(number) + ": three numbers x y z are wanted");
+      throw std::runtime_error("line " + std::to_string(number) + ": expected three numbers x y z");
     }
     points->push_back(p);
   }
@@ -47,8 +48,7 @@ LoadedMap LoadMap(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::stringstream stream;
   if (!file || !(stream << file.rdbuf())) {
-    throw std::runtime_error(path +
-                             ": cannot be read, or is empty; a PCD, PLY or text point cloud is wanted");
+    throw std::runtime_error(path + ": cannot be read, or is empty; expected a PCD, PLY or text point cloud");
   }
   const std::string bytes = stream.str();
   LoadedMap loaded;
@@ -79,19 +79,15 @@ LoadedMap LoadMap(const std::string& path) {
 }
 
 void WritePcd(const std::string& path, const PointMap& map) {
-  const std::string part = path + ".part", n = std::to_string(map.points.size());
-  std::ofstream file(part, std::ios::binary);
+  const std::string n = std::to_string(map.points.size());
+  WholeFile whole(path);
+  std::ofstream& file = whole.stream();
   file << "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F "
           "F\nCOUNT 1 1 1\n"
        << "WIDTH " << n << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " << n << "\nDATA binary\n";
   file.write(reinterpret_cast<const char*>(map.points.data()),
              static_cast<std::streamsize>(map.points.size() * sizeof(Eigen::Vector3f)));
-  file.close();
-  if (!file || std::rename(part.c_str(), path.c_str()) != 0) {
-    std::remove(part.c_str());
-    throw std::runtime_error(path +
-                             ": cannot be written; check that the folder exists, is writable and has room");
-  }
+  whole.Commit();
 }
 
 MapSummary Summarize(const PointMap& map) {

@@ -136,8 +136,8 @@ void ReadPcd(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std
   const Field* axes[3] = {&Find(header, "x"), &Find(header, "y"), &Find(header, "z")};
   *format = "PCD " + header.data;
   const std::size_t n = header.points, available = bytes.size() - header.end;
-  const auto truncated = [&](std::size_t wanted) {
-    Fail("truncated: " + std::to_string(n) + " points need " + std::to_string(wanted) + " bytes of data, " +
+  const auto truncated = [&](std::size_t needed) {
+    Fail("truncated: " + std::to_string(n) + " points need " + std::to_string(needed) + " bytes of data, " +
          std::to_string(available) + " are there; copy the file again");
   };
   if (header.data == "ascii") {
@@ -180,7 +180,7 @@ void ReadPcd(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std
       points->push_back(p);
     }
   } else {
-    Fail("DATA \"" + header.data + "\" is not known; ascii, binary or binary_compressed is wanted");
+    Fail("DATA \"" + header.data + "\" is not known; expected ascii, binary or binary_compressed");
   }
 }
 

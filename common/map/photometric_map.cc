@@ -1,11 +1,11 @@
 #include "common/map/photometric_map.h"
 
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
+#include "common/files/whole_file.h"
 #include "common/map/map_formats.h"
 
 namespace evit {
@@ -19,12 +19,12 @@ PhotometricMap LoadPhotometricMap(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::stringstream stream;
   if (!file || !(stream << file.rdbuf())) {
-    throw std::runtime_error(path + ": cannot be read, or is empty; a PLY with intensities is wanted" +
+    throw std::runtime_error(path + ": cannot be read, or is empty; expected a PLY with intensities" +
                              kRemedy);
   }
   const std::string bytes = stream.str();
   if (bytes.rfind("ply", 0) != 0) {
-    throw std::runtime_error(path + ": is no PLY; a photometric map is wanted here" + kRemedy);
+    throw std::runtime_error(path + ": is not a PLY; expected a photometric map" + kRemedy);
   }
   PhotometricMap all, map;
   std::string format;
@@ -53,8 +53,8 @@ PhotometricMap LoadPhotometricMap(const std::string& path) {
 }
 
 void WritePhotometricMap(const std::string& path, const PhotometricMap& map) {
-  const std::string part = path + ".part";
-  std::ofstream file(part, std::ios::binary);
+  WholeFile whole(path);
+  std::ofstream& file = whole.stream();
   file << "ply\nformat binary_little_endian 1.0\ncomment photometric map of evit: metres, z up\nelement "
           "vertex "
        << map.points.size()
@@ -67,12 +67,7 @@ void WritePhotometricMap(const std::string& path, const PhotometricMap& map) {
   }
   file.write(reinterpret_cast<const char*>(rows.data()),
              static_cast<std::streamsize>(rows.size() * sizeof(float)));
-  file.close();
-  if (!file || std::rename(part.c_str(), path.c_str()) != 0) {
-    std::remove(part.c_str());
-    throw std::runtime_error(path +
-                             ": cannot be written; check that the folder exists, is writable and has room");
-  }
+  whole.Commit();
 }
 
 }  // namespace evit

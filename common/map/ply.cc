@@ -96,7 +96,7 @@ class Numbers {
       if (at_ >= bytes_.size()) Fail("truncated: the data ends early; copy the file again");
       char* end = nullptr;
       const double value = std::strtod(bytes_.c_str() + at_, &end);
-      if (end == bytes_.c_str() + at_) Fail("byte " + std::to_string(at_) + ": a number is wanted");
+      if (end == bytes_.c_str() + at_) Fail("byte " + std::to_string(at_) + ": expected a number");
       at_ = static_cast<std::size_t>(end - bytes_.c_str());
       return value;
     }

@@ -76,7 +76,7 @@ TEST(PlyTest, Broken) {
               HasSubstr("no property z"));
   EXPECT_THAT(LoadError(Header("ascii", "element vertex 2\n" + xyz) + "1 2 3\n4 5"), HasSubstr("truncated"));
   EXPECT_THAT(LoadError(Header("ascii", "element vertex 1\n" + xyz) + "1 two 3"),
-              HasSubstr("a number is wanted"));
+              HasSubstr("expected a number"));
   EXPECT_THAT(LoadError(Header("ascii", "element vertex 0\n" + xyz)), HasSubstr("the map is empty"));
   for (const char* count : {"4000000000000", "-1", "18446744073709551615"}) {
     EXPECT_THAT(

@@ -66,8 +66,8 @@ std::vector<std::int32_t> SpreadSubset(const std::vector<ProjectedPoint>& points
   // out short (it does not in practice), its points are all taken into the draw.
   std::vector<std::uint64_t> bound(counts.size());
   for (std::size_t t = 0; t < counts.size(); ++t) {
-    const double wanted = static_cast<double>(quota) + 1;
-    const double share = (wanted + 4 * std::sqrt(wanted) + 4) / std::max(counts[t], 1);
+    const double expected = static_cast<double>(quota) + 1;
+    const double share = (expected + 4 * std::sqrt(expected) + 4) / std::max(counts[t], 1);
     bound[t] = share >= 1 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(share * 0x1p64);
   }
   const std::uint64_t base = Mix(seed);

@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "tests/fuzz/temporary_file.h"
-#include "tools/formats/vector/event_file.h"
+#include "tools/formats/vector/event_file_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

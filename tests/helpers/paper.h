@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "tools/paper/results.h"
+#include "tools/paper/paper_results.h"
 
 namespace evit {
 

@@ -29,7 +29,7 @@ std::string Track(CalibrateOptions* o) {
     throw std::runtime_error("--initial-pose or --initial-from is required");
   if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
   job.initial_from = o->from;
-  if (!o->seconds.empty()) job.seconds = ParseSeconds(o->seconds);
+  if (!o->seconds.empty()) job.play.seconds = ParseSeconds(o->seconds);
   if (job.config.empty()) job.config = DataFile("config/evt.textproto");
   if (LoadOptions(job.config).method != PipelineOptions::Method::kEvt) {
     throw std::runtime_error(job.config +
@@ -78,9 +78,9 @@ void AddCalibrateCommand(CLI::App* app) {
       calibrate->add_option("--initial-pose", o->pose, "Body in the map at the start: \"x y z qx qy qz qw\"");
   auto* from = calibrate->add_option("--initial-from", o->from, "Take the pose from this trajectory (TUM)");
   pose->excludes(from);
-  calibrate->add_option(
-      "--poses", o->poses,
-      "OUT.evt/trajectory.tum of an earlier event-only run with the same rig file, instead of tracking again");
+  calibrate->add_option("--poses", o->poses,
+                        "OUT.evt/trajectory.tum of an earlier event-only run with the same rig file, instead "
+                        "of tracking again");
   calibrate->add_option("--out", o->out, "Rig file to write")->required();
   calibrate->add_option("--seconds", o->seconds, "A:B in s, use only this part of the log");
   calibrate->add_option("--config", o->job.config, "Event-only tracking (default: config/evt.textproto)");
@@ -88,7 +88,8 @@ void AddCalibrateCommand(CLI::App* app) {
   calibrate->footer(
       "Record ten to thirty seconds of lively hand-held motion in view of the map, with rotation about all "
       "three axes;\n"
-      "tilt the rig by 45 degrees or more in each direction, which separates accelerometer bias from a tilt of "
+      "tilt the rig by 45 degrees or more in each direction, which separates accelerometer bias from a tilt "
+      "of "
       "the map.\n"
       "Camera intrinsics, IMU noise and gravity are taken from the rig file. Values that the motion does not "
       "make\n"

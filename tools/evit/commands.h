@@ -12,6 +12,7 @@ void AddImportCommand(CLI::App* app);
 void AddMapCommand(CLI::App* app);
 /// photometric, a subcommand of map.
 void AddMapPhotometric(CLI::App* map);
+void AddSimulateCommand(CLI::App* app);
 void AddEvalCommand(CLI::App* app);
 void AddCalibrateCommand(CLI::App* app);
 void AddRunCommand(CLI::App* app);

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "tools/evit/commands.h"
-#include "tools/evit/simulate_command.h"
 
 namespace {
 

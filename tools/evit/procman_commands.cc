@@ -22,12 +22,13 @@ constexpr auto kPatience = std::chrono::seconds(5);
 
 // The bus of the pipeline that runs here, or the one that was asked for.
 std::unique_ptr<Bus> OpenBusOfPipeline(const std::string& lcm_url) {
-  const char* environment = std::getenv("LCM_DEFAULT_URL");
-  const bool own_choice = lcm_url.empty() && (environment == nullptr || *environment == '\0');
-  const auto running = run::FindRunning();
-  if (own_choice && running) run::JoinNetworkOf(*running);
-  if (own_choice && !running) {
-    throw std::runtime_error("neither `evit run` nor `evit up` is running on this host; give --lcm-url to reach another one");
+  if (run::IsLocalBus(lcm_url)) {
+    const auto running = run::FindRunning();
+    if (running) run::JoinNetworkOf(*running);
+    if (!running) {
+      throw std::runtime_error(
+          "neither `evit run` nor `evit up` is running on this host; give --lcm-url to reach another one");
+    }
   }
   return OpenLcmBus(ResolveLcmUrl(lcm_url));
 }
@@ -86,7 +87,8 @@ void Logs(const LogOptions& o) {
   for (const auto& [name, info] : sheriff.Look(kPatience)) {
     for (const auto& status : info.cmds) known = known || status.cmd.command_id == o.command;
   }
-  if (!known) throw std::runtime_error("there is no command \"" + o.command + "\"; evit ps lists the commands");
+  if (!known)
+    throw std::runtime_error("there is no command \"" + o.command + "\"; evit ps lists the commands");
   if (!local && !o.follow) {
     throw std::runtime_error("its log file is on another host; --follow shows its output from now on");
   }
@@ -129,7 +131,8 @@ void AddProcmanCommands(CLI::App* app) {
            procman::Sheriff::Order::kRestart);
 
   auto o = std::make_shared<LogOptions>();
-  CLI::App* logs = app->add_subcommand("logs", "Show the output of a command of a running pipeline (PM_OUTPUT)");
+  CLI::App* logs =
+      app->add_subcommand("logs", "Show the output of a command of a running pipeline (PM_OUTPUT)");
   logs->add_option("command", o->command, "Its id, as listed by evit ps")->required();
   logs->add_option("-n,--lines", o->lines, "Lines of its log file to print")
       ->capture_default_str()

@@ -29,18 +29,19 @@ void AddRunCommand(CLI::App* app) {
                   "Tracker settings, e.g. config/evt.textproto (default: EVIT's, see evit config show)");
   auto* pose =
       run->add_option("--initial-pose", o->pose, "Body in the map at the start: \"x y z qx qy qz qw\"");
-  auto* from =
-      run->add_option("--initial-from", o->from, "Take the pose from this ground truth (TUM), and score against it");
+  auto* from = run->add_option("--initial-from", o->from,
+                               "Take the pose from this ground truth (TUM), and score against it");
   pose->excludes(from);
   run->add_option("--truth", o->job.truth, "Truth (TUM) to score against");
   run->add_option("--out", o->job.out, "Folder for the results")->required();
-  auto* realtime =
-      run->add_flag("--realtime", o->realtime, "Play in real time; nothing waits for slow services, losses are counted");
+  auto* realtime = run->add_flag("--realtime", o->realtime,
+                                 "Play in real time; nothing waits for slow services, losses are counted");
   run->add_flag("--lossless", o->lossless,
                 "As fast as the services can follow; bit-identical every time (default)")
       ->excludes(realtime);
-  run->add_option("--speed", o->job.speed, "With --realtime: this many times faster")->check(CLI::PositiveNumber);
-  run->add_option("--loops", o->job.loops,
+  run->add_option("--speed", o->job.play.speed, "With --realtime: this many times faster")
+      ->check(CLI::PositiveNumber);
+  run->add_option("--loops", o->job.play.loops,
                   "With --realtime: play the log this many times and record the memory (soak test)")
       ->check(CLI::PositiveNumber);
   run->add_option("--seconds", o->seconds, "A:B in s, play only this part of the log");
@@ -57,9 +58,9 @@ void AddRunCommand(CLI::App* app) {
     if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
     job.initial_from = o->from;
     if (job.truth.empty()) job.truth = o->from;
-    if (!o->seconds.empty()) job.seconds = ParseSeconds(o->seconds);
-    job.lossless = !o->realtime;
-    if (job.lossless && job.loops > 1) throw std::runtime_error("--loops needs --realtime");
+    if (!o->seconds.empty()) job.play.seconds = ParseSeconds(o->seconds);
+    job.play.lossless = !o->realtime;
+    if (job.play.lossless && job.play.loops > 1) throw std::runtime_error("--loops needs --realtime");
     job.command = CommandLineOfThis();
     const int code = run::Run(job);
     if (code != 0) throw CLI::RuntimeError(code);

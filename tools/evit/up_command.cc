@@ -16,6 +16,7 @@
 #include "tools/evit/data_file.h"
 #include "tools/evit/options.h"
 #include "tools/run/local_network.h"
+#include "tools/run/run_file.h"
 
 namespace evit::commands {
 namespace {
@@ -71,9 +72,8 @@ void Up(const UpOptions& o) {
   SetDefaults(std::filesystem::absolute(o.logs));
 
   const std::string url = ResolveLcmUrl(o.lcm_url);
-  const char* asked = std::getenv("LCM_DEFAULT_URL");
   std::unique_ptr<run::RunFile> run_file;
-  if (o.lcm_url.empty() && (asked == nullptr || *asked == '\0')) {
+  if (run::IsLocalBus(o.lcm_url)) {
     run::EnsureLocalMulticast(url);
     run_file = std::make_unique<run::RunFile>(o.logs);
   }
@@ -122,7 +122,8 @@ void AddUpCommand(CLI::App* app) {
   up->add_option("--lcm-url", o->lcm_url,
                  "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
   up->footer(
-      "Commands inherit this environment; EVIT_CONFIG and EVIT_STATE get defaults. Programs are searched beside "
+      "Commands inherit this environment; EVIT_CONFIG and EVIT_STATE get defaults. Programs are searched "
+      "beside "
       "evit, then\n"
       "on PATH. A command that dies is restarted if its auto_respawn is true.");
   up->callback([o] { Up(*o); });

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/paper/plan.h"
+#include "tools/paper/paper_plan.h"
 
 namespace evit::paper {
 

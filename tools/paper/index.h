@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "tools/paper/figures.h"
-#include "tools/paper/job.h"
-#include "tools/paper/plan.h"
+#include "tools/paper/paper_plan.h"
+#include "tools/paper/run_jobs.h"
 
 namespace evit::paper {
 

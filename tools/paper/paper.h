@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tools/paper/plan.h"
+#include "tools/paper/paper_plan.h"
 
 namespace evit::paper {
 

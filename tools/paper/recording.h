@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/paper/job.h"
 #include "tools/paper/paper_config.h"
+#include "tools/paper/paper_job.h"
 
 namespace evit::paper {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/paper/results.h"
+#include "tools/paper/paper_results.h"
 
 namespace evit::paper {
 

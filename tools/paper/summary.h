@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "tools/paper/score.h"
+#include "tools/paper/run_score.h"
 
 namespace evit::paper {
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/paper/summary.h"
-#include "tools/paper/table.h"
 #include "tools/paper/text_files.h"
+#include "tools/paper/text_table.h"
 
 namespace evit::paper {
 namespace {

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/files/whole_file.h"
+
 namespace evit::paper {
 namespace {
 
@@ -27,14 +29,9 @@ std::string ReadText(const std::string& path) {
 }
 
 void WriteText(const std::string& path, const std::string& text) {
-  const std::string part = path + ".part";
-  std::ofstream file(part, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file || std::rename(part.c_str(), path.c_str()) != 0) {
-    std::remove(part.c_str());
-    throw std::runtime_error(path + ": cannot be written; check the free space and the permissions of the folder");
-  }
+  WholeFile file(path);
+  file.stream() << text;
+  file.Commit();
 }
 
 void MakeFolder(const std::string& path) {

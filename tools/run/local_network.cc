@@ -6,7 +6,6 @@
 #include <net/if.h>
 #include <net/route.h>
 #include <sched.h>
-#include <signal.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -59,13 +58,6 @@ void ConfigureLoopback() {
   route.rt_dev = device;
   if (ioctl(fd, SIOCADDRT, &route) != 0) Fail("route to 224.0.0.0/4");
   close(fd);
-}
-
-std::filesystem::path RunFolder() {
-  const char* folder = std::getenv("XDG_RUNTIME_DIR");
-  if (folder != nullptr && std::filesystem::is_directory(folder))
-    return std::filesystem::path(folder) / "evit";
-  return std::filesystem::path("/tmp") / ("evit-" + std::to_string(getuid()));
 }
 
 // Whether the route to the group leads through lo: a group that is reached through a network card would send
@@ -122,39 +114,9 @@ bool EnsureLocalMulticast(const std::string& url) {
   return true;
 }
 
-RunFile::RunFile(const std::string& logs) {
-  std::error_code ignored;  // only convenience hangs on this file
-  std::filesystem::create_directories(RunFolder(), ignored);
-  FindRunning();  // clears away what killed processes left
-  path_ = (RunFolder() / ("run-" + std::to_string(getpid()))).string();
-  std::ofstream(path_) << getpid() << '\n' << std::filesystem::absolute(logs, ignored).string() << '\n';
-}
-
-RunFile::~RunFile() {
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
-}
-
-std::optional<RunningPipeline> FindRunning() {
-  std::error_code ignored;
-  std::optional<RunningPipeline> newest;
-  std::filesystem::file_time_type newest_time;
-  for (const auto& entry : std::filesystem::directory_iterator(RunFolder(), ignored)) {
-    RunningPipeline found;
-    std::ifstream file(entry.path());
-    file >> found.pid >> std::ws;
-    std::getline(file, found.logs);
-    if (found.pid <= 0) continue;
-    if (kill(found.pid, 0) != 0 && errno == ESRCH) {
-      std::filesystem::remove(entry.path(), ignored);
-      continue;
-    }
-    const auto time = std::filesystem::last_write_time(entry.path(), ignored);
-    if (newest && time < newest_time) continue;
-    newest = found;
-    newest_time = time;
-  }
-  return newest;
+bool IsLocalBus(const std::string& lcm_url) {
+  const char* environment = std::getenv("LCM_DEFAULT_URL");
+  return lcm_url.empty() && (environment == nullptr || *environment == '\0');
 }
 
 void JoinNetworkOf(const RunningPipeline& pipeline) {

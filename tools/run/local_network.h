@@ -1,9 +1,8 @@
 #pragma once
 
-#include <sys/types.h>
-
-#include <optional>
 #include <string>
+
+#include "tools/run/run_file.h"
 
 namespace evit::run {
 
@@ -14,25 +13,9 @@ namespace evit::run {
 /// the remedy where the kernel forbids it.
 bool EnsureLocalMulticast(const std::string& url);
 
-/// A file that names this process while it lives, so that others (scripts/spy, evit ps) can join its
-/// namespace and find its logs: its process id, then the folder of its logs.
-class RunFile {
- public:
-  explicit RunFile(const std::string& logs);
-  ~RunFile();
-  RunFile(const RunFile&) = delete;
-  RunFile& operator=(const RunFile&) = delete;
-
- private:
-  std::string path_;
-};
-
-/// What the newest live RunFile says; nothing where there is none.
-struct RunningPipeline {
-  pid_t pid = 0;
-  std::string logs;
-};
-std::optional<RunningPipeline> FindRunning();
+/// Whether neither the option --lcm-url (empty: not given) nor the environment chooses a bus, so that it is
+/// the one that never leaves this host.
+bool IsLocalBus(const std::string& lcm_url);
 
 /// Moves this process into the network namespace of a running pipeline. Call before any thread or socket is
 /// made. Throws std::runtime_error where the kernel forbids it.

@@ -4,7 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-#include "procman/proc_usage.h"
+#include "procman/process_usage.h"
 #include "tools/pictures/chart.h"
 
 namespace evit::run {

@@ -101,6 +101,14 @@ bool Recorder::TakeActivity() {
   return active;
 }
 
+std::string StatusText(const Recorder& recorder) {
+  std::string text = "status of the services:";
+  for (const auto& [name, status] : recorder.statuses()) {
+    text += "\n  " + name + ": " + status.state + ": " + status.detail;
+  }
+  return text;
+}
+
 std::int64_t CounterOf(const service_status_t& status, const std::string& name) {
   const auto it = std::find(status.counter_name.begin(), status.counter_name.end(), name);
   return it == status.counter_name.end() ? 0 : status.counter_value[it - status.counter_name.begin()];

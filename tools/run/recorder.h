@@ -61,8 +61,7 @@ class Recorder {
 
   Trajectory online_;
   Covariances covariances_;
-  std::map<Utime, StampedPose>
-      window_;  // those in the window; keyframe numbers restart with frame_builder
+  std::map<Utime, StampedPose> window_;  // those in the window; keyframe numbers restart with frame_builder
   Trajectory left_;
   std::vector<ModeChange> mode_changes_;
   tracker_mode_t mode_{};
@@ -71,6 +70,9 @@ class Recorder {
   double solve_ms_ = 0;
   bool active_ = false;
 };
+
+/// What the services say of themselves, for messages: "status of the services:", then a line for each.
+std::string StatusText(const Recorder& recorder);
 
 /// A STATUS counter by name; 0 where there is none.
 std::int64_t CounterOf(const service_status_t& status, const std::string& name);

@@ -89,7 +89,7 @@ TEST_F(RunFilesTest, SpanEventsStartAndTruth) {
 }
 
 TEST_F(RunFilesTest, PartOfTheLogBeginsWhereTheTruthIsThen) {
-  job_.seconds = {0.2, 0.6};
+  job_.play.seconds = {0.2, 0.6};
   const RunInputs inputs = PrepareRun(job_);
   EXPECT_EQ(inputs.begin, kStart + 200'000);
   EXPECT_EQ(inputs.end, kStart + 600'000);

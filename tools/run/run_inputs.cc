@@ -58,16 +58,17 @@ void ReadSpan(const RunJob& job, RunInputs* inputs) {
   inputs->begin = std::min(imu, events);
   inputs->end = TimeOf<imu_batch_t>(log, *last_imu, -1);
   const Utime log_to_sensor = inputs->end - last_imu->utime;
-  if (job.seconds) {
+  if (job.play.seconds) {
     const Utime begin = inputs->begin;
-    inputs->begin = begin + static_cast<Utime>(1e6 * job.seconds->first);
-    inputs->end = std::min(inputs->end, begin + static_cast<Utime>(1e6 * job.seconds->second));
+    inputs->begin = begin + static_cast<Utime>(1e6 * job.play.seconds->first);
+    inputs->end = std::min(inputs->end, begin + static_cast<Utime>(1e6 * job.play.seconds->second));
   }
   // The first keyframe needs both streams.
   for (const Utime first : {imu, events}) {
     if (first != kNever) inputs->begin = std::max(inputs->begin, first);
   }
-  if (inputs->begin >= inputs->end) throw std::runtime_error(job.log + ": contains no data in the part that --seconds selects");
+  if (inputs->begin >= inputs->end)
+    throw std::runtime_error(job.log + ": contains no data in the part that --seconds selects");
   // The number of events follows from a message's length: nothing else has to be read.
   const std::int64_t bare = event_packet_t{}.getEncodedSize();
   for (const LogEntry& entry : log.entries()) {

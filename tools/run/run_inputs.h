@@ -4,7 +4,7 @@
 #include <string>
 
 #include "common/evaluation/trajectory.h"
-#include "tools/run/run.h"
+#include "tools/run/run_job.h"
 
 namespace evit::run {
 

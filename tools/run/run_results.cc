@@ -28,7 +28,7 @@ void Describe(const RunJob& job, const RunInputs& inputs, report::Report* report
   report->set_map(job.map.empty() ? job.photometric_map : job.map);
   report->set_log(job.log);
   report->set_config(inputs.settings);
-  report->set_lossless(job.lossless);
+  report->set_lossless(job.play.lossless);
   report->set_begin_utime(static_cast<double>(inputs.begin));
   report->set_end_utime(static_cast<double>(inputs.end));
   report->set_events(static_cast<double>(inputs.n_events));
@@ -111,15 +111,6 @@ double Lost(const report::Report& report) {
   return lost;
 }
 
-// Why there is no pose at all: the last status of each service.
-std::string WhyNothing(const Recorder& recorder) {
-  std::string text = "no keyframe was tracked; status of the services:";
-  for (const auto& [name, status] : recorder.statuses()) {
-    text += "\n  " + name + ": " + status.state + ": " + status.detail;
-  }
-  return text;
-}
-
 }  // namespace
 
 int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& recorder,
@@ -170,7 +161,7 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
   if (report.keyframes() == 0 || report.final_mode() != "TRACKING") {
     std::fprintf(stderr, "evit run: %s\n",
                  report.keyframes() == 0
-                     ? WhyNothing(recorder).c_str()
+                     ? ("no keyframe was tracked; " + StatusText(recorder)).c_str()
                      : (report.final_mode() + " at the end: " + recorder.mode().reason).c_str());
     return 2;
   }

@@ -5,10 +5,10 @@
 
 #include "tools/simulation/edge_map.h"
 #include "tools/simulation/event_stage.h"
-#include "tools/simulation/light.h"
+#include "tools/simulation/load_motion.h"
 #include "tools/simulation/moving_box.h"
+#include "tools/simulation/place_in_room.h"
 #include "tools/simulation/room.h"
-#include "tools/simulation/trajectory_source.h"
 
 namespace evit::simulation {
 namespace {
@@ -25,7 +25,7 @@ Rig SmallRig() {
 }
 
 Motion PlacedMotion(const std::string& name, double duration, const Rig& rig, const Scene& scene) {
-  TrajectorySettings settings;
+  MotionSettings settings;
   settings.source = "builtin:" + name;
   settings.duration_s = duration;
   Motion motion = LoadMotion(settings, rig);

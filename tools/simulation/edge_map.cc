@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 #include <unordered_set>
 
 #include "tools/simulation/event_sensor.h"
@@ -141,18 +139,6 @@ PointMap MakeEdgeMap(const Renderer& renderer, const Rig& rig, const PoseSpline&
   }
   if (map.points.size() > settings.max_points) map.points.resize(settings.max_points);
   return map;
-}
-
-void WriteBinaryPcd(const std::string& path, const PointMap& map) {
-  std::ofstream file(path, std::ios::binary);
-  file << "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n"
-       << "COUNT 1 1 1\nWIDTH " << map.points.size() << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS "
-       << map.points.size() << "\nDATA binary\n";
-  for (const Eigen::Vector3f& p : map.points) {
-    file.write(reinterpret_cast<const char*>(p.data()), 3 * sizeof(float));
-  }
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + path);
 }
 
 }  // namespace evit::simulation

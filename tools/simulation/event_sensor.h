@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "common/events/event.h"
-#include "tools/simulation/random.h"
 
 namespace evit::simulation {
 
@@ -56,25 +55,6 @@ class EventSensor {
       stored_;  // log intensity: newest input, low-passed, stored by the detector
   std::vector<float> threshold_on_, threshold_off_;
   std::vector<std::int32_t> free_from_;  // end of the refractory time
-};
-
-/// Events that no light caused: background activity of all pixels and a few hot pixels, as Poisson processes.
-class NoiseSource {
- public:
-  NoiseSource(int width, int height, const EventSensorSettings& settings, std::uint64_t seed);
-
-  /// Appends the noise events in (last t1, t1].
-  void Until(std::int32_t t1, std::vector<EventSensor::Event>* events);
-
- private:
-  struct Process {
-    double next;     // us
-    double mean_us;  // gap
-    int x, y;        // -1: any pixel
-  };
-  int width_, height_;
-  Random random_;
-  std::vector<Process> processes_;
 };
 
 /// Sorts by time, keeping the given order among equal stamps; all stamps in (t0, t1].

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/simulation/noise_source.h"
+
 namespace evit::simulation {
 namespace {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tools/simulation/noise_source.h"
 #include "tools/simulation/parallel.h"
 
 namespace evit::simulation {

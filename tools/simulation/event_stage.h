@@ -3,26 +3,13 @@
 #include <functional>
 
 #include "common/events/event.h"
+#include "tools/simulation/disturbances.h"
+#include "tools/simulation/event_counts.h"
 #include "tools/simulation/event_sensor.h"
-#include "tools/simulation/light.h"
-#include "tools/simulation/moving_box.h"
 #include "tools/simulation/render_schedule.h"
 #include "tools/simulation/renderer.h"
 
 namespace evit::simulation {
-
-struct EventCounts {
-  std::size_t positive = 0, negative = 0, noise = 0;  // noise: part of the other two
-  double peak_rate = 0;                               // events/s, most in any 10 ms
-  std::size_t total() const { return positive + negative; }
-};
-
-/// What a map knows nothing of.
-struct Disturbances {
-  Lamp lamp;
-  Cover cover;
-  const MovingBox* box = nullptr;  // none where null
-};
 
 /// Renders along the schedule and lets the sensor's events come out in order of time, in portions of some
 /// milliseconds. Bit-identical for any number of threads. `progress`: 0..1.

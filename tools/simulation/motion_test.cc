@@ -11,8 +11,10 @@
 
 #include "common/config/rig_file.h"
 #include "tools/simulation/builtin_motion.h"
+#include "tools/simulation/load_motion.h"
+#include "tools/simulation/motion_speed.h"
+#include "tools/simulation/place_in_room.h"
 #include "tools/simulation/room.h"
-#include "tools/simulation/trajectory_source.h"
 
 namespace evit::simulation {
 namespace {
@@ -27,7 +29,7 @@ Rig TestRig() {
 }
 
 Motion Builtin(const std::string& name, double duration, std::uint64_t variant = 1) {
-  TrajectorySettings settings;
+  MotionSettings settings;
   settings.source = "builtin:" + name;
   settings.duration_s = duration;
   settings.variant = variant;
@@ -136,7 +138,7 @@ TEST(PlaySpeed, IsTheSameWayInLessTime) {
     poses.push_back({t, slow.spline.Pose(t)});
   const fs::path path = fs::temp_directory_path() / ("evit_motion_test_" + std::to_string(getpid()) + ".tum");
   WriteTum(path.string(), poses);
-  TrajectorySettings settings;
+  MotionSettings settings;
   settings.source = path.string();
   settings.frame = TrajectoryFrame::kBody;
   settings.begin_s = 1.5;  // of the file's time
@@ -185,7 +187,7 @@ TEST(TremorOfAHand, SurvivesTheSpline) {
 }
 
 TEST(TremorOfAHand, IsInTheMotionThatIsLoaded) {
-  TrajectorySettings settings;
+  MotionSettings settings;
   settings.source = "builtin:robot_normal";
   settings.duration_s = 3;
   const MotionSpeed calm = MeasureMotionSpeed(LoadMotion(settings, TestRig()), TestRig());
@@ -205,7 +207,7 @@ Rig MarkerRig() {
 
 TEST(LoadMotion, DetectsMarkerPoses) {
   const Rig rig = MarkerRig();
-  TrajectorySettings settings;
+  MotionSettings settings;
   settings.source = "builtin:handheld";
   settings.duration_s = 2;
   const Motion body = LoadMotion(settings, rig);
@@ -234,7 +236,7 @@ TEST(LoadMotion, DetectsTheFrameOfRealFiles) {
   const Rig rig = LoadRig(EVIT_SOURCE_DIR "/config/vector/rig.textproto");
   const Scene scene = MakeRoom(1);
   for (const char* name : {"robot_normal", "mountain_normal", "sofa_fast"}) {
-    TrajectorySettings settings;
+    MotionSettings settings;
     settings.source = (folder / (std::string(name) + ".txt")).string();
     settings.begin_s = 5;
     settings.end_s = 15;

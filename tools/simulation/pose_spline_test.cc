@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tools/simulation/imu_simulator.h"
+#include "tools/simulation/simulated_imu.h"
 
 namespace evit::simulation {
 namespace {

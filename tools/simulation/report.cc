@@ -69,14 +69,13 @@ class Json {
 
 }  // namespace
 
-std::string RoomName(RoomKind room) { return room == RoomKind::kPlain ? "plain" : "furnished"; }
-
 void WriteReport(const std::string& path, const SimulationSettings& settings, const SimulationSummary& s) {
   Json json;
   json.Open("").Text("name", s.name).Text("command", settings.command);
-  json.Number("scene_seed", static_cast<double>(settings.scene_seed))
+  json.Number("scene_seed", static_cast<double>(settings.room.seed))
       .Number("seed", static_cast<double>(settings.seed));
-  json.Text("room", RoomName(settings.room)).Number("moving_box", settings.moving_box ? 1 : 0);
+  json.Text("room", RoomName(settings.room.kind))
+      .Number("moving_box", settings.disturbances.moving_box ? 1 : 0);
   json.Open("trajectory").Text("source", settings.trajectory.source).Text("note", s.motion.note);
   json.Number("begin_us", static_cast<double>(s.motion.begin)).Number("duration_s", s.duration_s);
   json.Number("knot_ms", settings.trajectory.knot_ms).Number("play_speed", settings.trajectory.play_speed);
@@ -113,10 +112,15 @@ void WriteReport(const std::string& path, const SimulationSettings& settings, co
   json.Number("view_jitter_m", settings.map.view_jitter_m)
       .Number("outlier_share", settings.map.outlier_share);
   json.Number("outlier_m", settings.map.outlier_m).Number("voxel_m", settings.map.voxel_m);
-  json.Number("hole_share", settings.map_holes.share).Number("hole_m", settings.map_holes.diameter_m).Close();
-  json.Open("lamp").Number("off_s", settings.lamp_off_s).Number("on_s", settings.lamp_on_s);
-  json.Number("share", settings.lamp_share).Close();
-  json.Open("dark").Number("from_s", settings.dark_from_s).Number("to_s", settings.dark_to_s).Close();
+  json.Number("hole_share", settings.map.holes.share).Number("hole_m", settings.map.holes.diameter_m).Close();
+  json.Open("lamp")
+      .Number("off_s", settings.disturbances.lamp_off_s)
+      .Number("on_s", settings.disturbances.lamp_on_s);
+  json.Number("share", settings.disturbances.lamp_share).Close();
+  json.Open("dark")
+      .Number("from_s", settings.disturbances.dark_from_s)
+      .Number("to_s", settings.disturbances.dark_to_s)
+      .Close();
   json.Close();
   std::ofstream file(path);
   file << json.Take();

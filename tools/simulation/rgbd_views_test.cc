@@ -8,8 +8,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "tools/simulation/builtin_motion.h"
+#include "tools/simulation/load_motion.h"
+#include "tools/simulation/place_in_room.h"
 #include "tools/simulation/room.h"
-#include "tools/simulation/trajectory_source.h"
 
 namespace evit::simulation {
 namespace {
@@ -29,7 +30,7 @@ class RgbdViewsTest : public ::testing::Test {
     rig_.camera.cy = 60;
     rig_.camera.distortion = {-0.03, 0.04, -0.0005, -0.001, 0};
     rig_.T_body_camera = {ExpSO3(Eigen::Vector3d(1.1, -1.3, 1.2)), Eigen::Vector3d(0.13, 0.08, 0.02)};
-    TrajectorySettings trajectory;
+    MotionSettings trajectory;
     trajectory.source = "builtin:handheld";
     trajectory.duration_s = 3;
     motion_ = LoadMotion(trajectory, rig_);

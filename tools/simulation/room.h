@@ -2,14 +2,10 @@
 
 #include <cstdint>
 
+#include "tools/simulation/room_settings.h"
 #include "tools/simulation/scene.h"
 
 namespace evit::simulation {
-
-enum class RoomKind {
-  kFurnished,
-  kPlain,  // hardly any texture: no posters, every surface of one grey, few things on tables and shelves
-};
 
 /// A furnished room of about 5 x 5 x 2.8 m, another one for each seed: floor at z = 0, centre at x = y = 0.
 /// Posters and plain walls, a sofa, tables, shelves with boxes, balls and columns; most of it towards +x. The

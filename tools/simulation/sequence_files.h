@@ -4,7 +4,7 @@
 #include <string>
 
 #include "common/geometry/rig.h"
-#include "tools/simulation/imu_simulator.h"
+#include "tools/simulation/simulated_imu.h"
 #include "tools/simulation/simulator.h"
 
 namespace evit::simulation {

@@ -8,11 +8,17 @@
 #include <stdexcept>
 
 #include "common/config/rig_file.h"
-#include "tools/formats/vector/event_file.h"
+#include "common/map/map_file.h"
+#include "tools/formats/vector/event_file_writer.h"
+#include "tools/simulation/edge_map.h"
+#include "tools/simulation/event_stage.h"
+#include "tools/simulation/load_motion.h"
+#include "tools/simulation/place_in_room.h"
 #include "tools/simulation/preview.h"
 #include "tools/simulation/rgbd_views.h"
 #include "tools/simulation/room.h"
 #include "tools/simulation/sequence_files.h"
+#include "tools/simulation/staged_folder.h"
 
 namespace evit::simulation {
 namespace {
@@ -34,11 +40,12 @@ void Check(const SimulationSettings& s, const Rig& rig) {
           "IMU errors must not be negative");
   require(s.map.voxel_m >= 1e-3 && s.map.voxel_m <= 1, "voxel must be 0.001 to 1 m");
   require(s.map.interval_s >= 0.01, "map interval must be at least 0.01 s");
-  require(s.map_holes.share >= 0 && s.map_holes.share < 1, "the share of holes in the map must be 0 to 1");
-  require(s.map_holes.share == 0 || (s.map_holes.diameter_m >= 0.01 && s.map_holes.diameter_m <= 10),
+  require(s.map.holes.share >= 0 && s.map.holes.share < 1, "the share of holes in the map must be 0 to 1");
+  require(s.map.holes.share == 0 || (s.map.holes.diameter_m >= 0.01 && s.map.holes.diameter_m <= 10),
           "holes in the map must be 0.01 to 10 m large");
-  require(s.dark_to_s >= s.dark_from_s, "the lens must be covered before it is free again");
-  require(s.lamp_share > 0 && s.lamp_on_s >= s.lamp_off_s,
+  require(s.disturbances.dark_to_s >= s.disturbances.dark_from_s,
+          "the lens must be covered before it is free again");
+  require(s.disturbances.lamp_share > 0 && s.disturbances.lamp_on_s >= s.disturbances.lamp_off_s,
           "lamp must go off before it comes on, to a share over 0");
   require(s.threads >= 1 && s.threads <= 256, "threads must be 1 to 256");
   require(s.previews >= 0 && s.previews <= 1000, "previews must be 0 to 1000");
@@ -66,8 +73,8 @@ void RequireSameSequence(const SimulationSettings& settings, const Motion& motio
   if (report.is_discarded())
     throw std::runtime_error((folder / "simulation.json").string() +
                              ": is not valid JSON; simulate the sequence again");
-  if (report.value("scene_seed", settings.scene_seed) != settings.scene_seed ||
-      report.value("room", RoomName(settings.room)) != RoomName(settings.room)) {
+  if (report.value("scene_seed", settings.room.seed) != settings.room.seed ||
+      report.value("room", RoomName(settings.room.kind)) != RoomName(settings.room.kind)) {
     throw std::runtime_error(other + "simulation.json describes another room" + remedy);
   }
 }
@@ -76,10 +83,10 @@ PointMap WriteMap(const SimulationSettings& settings, const Rig& rig, const Rend
                   const Motion& motion, const StagedFolder& folder, SimulationSummary* summary) {
   PointMap map = MakeEdgeMap(renderer, rig, motion.spline, motion.begin, motion.end, settings.map,
                              settings.seed, settings.threads, &summary->n_map_views);
-  CutHoles(settings.map_holes, settings.seed, &map);
+  CutHoles(settings.map.holes, settings.seed, &map);
   if (map.points.empty()) throw std::runtime_error("the map would be empty: nothing with edges is in view");
   summary->n_map_points = map.points.size();
-  WriteBinaryPcd(folder.File("map.pcd"), map);
+  WritePcd(folder.File("map.pcd"), map);
   if (settings.rgbd) {
     WriteRgbdViews(folder.File("rgbd"), renderer.scene(), rig, motion.spline,
                    ChooseMapViews(motion.spline, motion.begin, motion.end, settings.map), settings.map,
@@ -98,10 +105,10 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
     if (progress) progress(share);
   };
   SimulationSummary summary;
-  TrajectorySettings trajectory = settings.trajectory;
+  MotionSettings trajectory = settings.trajectory;
   trajectory.tremor_seed = settings.seed;
   summary.motion = LoadMotion(trajectory, rig);
-  const Scene scene = MakeRoom(settings.scene_seed, settings.room);
+  const Scene scene = MakeRoom(settings.room.seed, settings.room.kind);
   Motion& motion = summary.motion;
   PlaceInRoom(rig, scene, &motion);
   summary.motion_speed = MeasureMotionSpeed(motion, rig);
@@ -141,13 +148,13 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
 
   const auto stamp = [&](double seconds) { return motion.begin + static_cast<Utime>(seconds * 1e6); };
   Disturbances disturbances;
-  disturbances.lamp.off = stamp(settings.lamp_off_s);
-  disturbances.lamp.on = stamp(settings.lamp_on_s);
-  disturbances.lamp.share = settings.lamp_share;
-  disturbances.cover.from = stamp(settings.dark_from_s);
-  disturbances.cover.to = stamp(settings.dark_to_s);
+  disturbances.lamp.off = stamp(settings.disturbances.lamp_off_s);
+  disturbances.lamp.on = stamp(settings.disturbances.lamp_on_s);
+  disturbances.lamp.share = settings.disturbances.lamp_share;
+  disturbances.cover.from = stamp(settings.disturbances.dark_from_s);
+  disturbances.cover.to = stamp(settings.disturbances.dark_to_s);
   std::unique_ptr<MovingBox> box;
-  if (settings.moving_box)
+  if (settings.disturbances.moving_box)
     box = std::make_unique<MovingBox>(settings.seed, motion.spline, rig, motion.begin, motion.end);
   disturbances.box = box.get();
   Preview preview(renderer, rig, motion.spline, motion.begin, motion.end, settings.previews, box.get());

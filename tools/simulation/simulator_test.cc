@@ -10,7 +10,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "tools/formats/vector/event_file.h"
+#include "tools/formats/vector/event_file_reader.h"
 #include "tools/simulation/room.h"
 
 namespace evit::simulation {
@@ -126,7 +126,7 @@ TEST_F(SimulatorTest, EventsLieOnTheProjectedEdges) {
   const SimulationSummary summary = Simulate(settings_, rig_, "test", nullptr);
   const EventArray events = ReadEvents(folder_ / "a" / "fast1.synced.left_event.hdf5");
   const Trajectory truth = ReadTum((folder_ / "a" / "truth.tum").string());
-  const Scene scene = MakeRoom(settings_.scene_seed);
+  const Scene scene = MakeRoom(settings_.room.seed);
   const Renderer renderer(rig_.camera, scene);
   std::vector<double> distances;
   for (std::size_t k = 10; k + 10 < truth.size(); k += 20) {
@@ -152,8 +152,8 @@ TEST_F(SimulatorTest, EventsLieOnTheProjectedEdges) {
 TEST_F(SimulatorTest, LampMakesABurst) {
   settings_.trajectory.source = "builtin:handheld";
   const SimulationSummary calm = Simulate(settings_, rig_, "test", nullptr);
-  settings_.lamp_off_s = 0.2;
-  settings_.lamp_on_s = 0.4;
+  settings_.disturbances.lamp_off_s = 0.2;
+  settings_.disturbances.lamp_on_s = 0.4;
   settings_.out = (folder_ / "b").string();
   const SimulationSummary burst = Simulate(settings_, rig_, "test", nullptr);
   const std::size_t pixels = std::size_t{160} * 120;
@@ -170,7 +170,7 @@ TEST_F(SimulatorTest, MapOnlyLeavesTheEventsAlone) {
   settings_.map_only = true;
   EXPECT_EQ(Error(settings_), "");
   EXPECT_EQ(Text(folder / "map.pcd"), map);  // the same options give the same map
-  settings_.map_holes = {0.5, 0.6};
+  settings_.map.holes = {0.5, 0.6};
   settings_.rgbd = true;
   EXPECT_EQ(Error(settings_), "");
   EXPECT_LT(Text(folder / "map.pcd").size(), map.size() * 6 / 10);
@@ -182,16 +182,16 @@ TEST_F(SimulatorTest, MapOnlyLeavesTheEventsAlone) {
   other.trajectory.variant = 2;
   EXPECT_THAT(Error(other), HasSubstr("another motion"));
   other = settings_;
-  other.scene_seed = 2;
+  other.room.seed = 2;
   EXPECT_THAT(Error(other), HasSubstr("another room"));
   other = settings_;
-  other.room = RoomKind::kPlain;
+  other.room.kind = RoomKind::kPlain;
   EXPECT_THAT(Error(other), HasSubstr("another room"));
   other = settings_;
-  other.map_holes = {1.5, 0.6};
+  other.map.holes = {1.5, 0.6};
   EXPECT_THAT(Error(other), HasSubstr("share of holes"));
   other.out = (folder_ / "b").string();  // a folder of its own will do, too
-  other.map_holes = {};
+  other.map.holes = {};
   EXPECT_EQ(Error(other), "");
   EXPECT_EQ(Text(folder_ / "b" / "map.pcd"), map);
   EXPECT_FALSE(fs::exists(folder_ / "b" / "truth.tum"));

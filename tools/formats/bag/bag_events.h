@@ -3,6 +3,7 @@
 #include <string>
 
 #include "tools/formats/bag/bag_reader.h"
+#include "tools/formats/import/event_filter.h"
 #include "tools/formats/import/event_source.h"
 
 namespace evit::formats {

@@ -6,7 +6,7 @@
 #include "common/evaluation/trajectory.h"
 #include "common/events/event.h"
 #include "common/imu/imu_sample.h"
-#include "tools/formats/import/drop_counts.h"
+#include "tools/formats/import/event_filter.h"
 
 namespace evit::formats {
 

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 
 #include "common/evaluation/trajectory.h"
-#include "common/time/utime.h"
 
 namespace evit::formats {
 
@@ -20,26 +18,6 @@ struct DropCounts {
 
 /// "12 events dropped: 3 earlier than the one before, 9 outside the sensor"; empty where nothing was.
 std::string DropText(const DropCounts& dropped, const std::string& what);
-
-/// Keeps the events of a stream that are in order of time and on the sensor, counts the others.
-class EventFilter {
- public:
-  EventFilter(int width, int height) : width_(width), height_(height) {}
-
-  bool Keep(Utime t, std::int64_t x, std::int64_t y) {
-    if (x < 0 || y < 0 || x >= width_ || y >= height_) return ++dropped_.outside, false;
-    if (t < last_) return ++dropped_.disorder, false;
-    last_ = t;
-    return true;
-  }
-  void CountInvalid() { ++dropped_.invalid; }
-  const DropCounts& dropped() const { return dropped_; }
-
- private:
-  int width_, height_;
-  Utime last_ = std::numeric_limits<Utime>::min();
-  DropCounts dropped_;
-};
 
 /// Appends a sample or pose that is finite and later than the last one, counts the others.
 template <typename List, typename Item>

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tools/formats/import/event_filter.h"
+
 namespace evit::formats {
 namespace {
 

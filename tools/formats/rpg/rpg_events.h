@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "tools/formats/import/event_filter.h"
 #include "tools/formats/import/event_source.h"
 #include "tools/formats/import/line_reader.h"
 

@@ -1,5 +1,3 @@
-#include "tools/formats/vector/event_file.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -7,6 +5,9 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+
+#include "tools/formats/vector/event_file_reader.h"
+#include "tools/formats/vector/event_file_writer.h"
 
 namespace evit::formats {
 namespace {

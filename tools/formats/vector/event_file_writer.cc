@@ -1,8 +1,9 @@
+#include "tools/formats/vector/event_file_writer.h"
+
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
 
-#include "tools/formats/vector/event_file.h"
 #include "tools/formats/vector/h5_handle.h"
 #include "tools/formats/vector/zstd_filter.h"
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tools/formats/vector/event_file.h"
+#include "tools/formats/vector/event_file_reader.h"
 #include "tools/formats/vector/imu_file.h"
 
 namespace evit::formats {

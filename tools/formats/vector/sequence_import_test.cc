@@ -14,7 +14,7 @@
 #include "common/evaluation/decimal_time.h"
 #include "common/evaluation/trajectory.h"
 #include "common/wire/event_wire.h"
-#include "tools/formats/vector/event_file.h"
+#include "tools/formats/vector/event_file_writer.h"
 
 namespace evit::formats {
 namespace {

@@ -1,0 +1,98 @@
+#include "tools/run/player.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <stdexcept>
+
+#include "common/evaluation/trajectory_error.h"
+#include "tools/run/start_signal.h"
+#include "tools/terminal/progress_bar.h"
+
+namespace evit::run {
+
+namespace {
+
+constexpr double kRealTimeSilence = 5;  // s after the end of the log: nothing more is to come
+constexpr double kStuck = 60;           // s without anything from the tracker
+
+double SecondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void Show(const Recorder& recorder, terminal::ProgressBar* bar) {
+  static constexpr const char* kModes[] = {"bootstrapping", "tracking", "LOST"};
+  const std::int64_t n = recorder.n_keyframes();
+  bar->Show(recorder.progress(),
+            n == 0 ? "starting" : std::to_string(n) + " keyframes, " + kModes[recorder.mode().mode % 3]);
+}
+
+}  // namespace
+
+Player::Player(const RunJob& job, const RunInputs& inputs, const Parts& parts)
+    : job_(job), inputs_(inputs), parts_(parts) {}
+
+std::string Player::Play(const StopSignals& signals) {
+  for (int loop = 1;; ++loop) {
+    const std::string ended = WaitForEnd(signals);
+    if (job_.play.loops > 1) PrintLoop(loop);
+    if (ended != "finished" || loop >= job_.play.loops) return ended;
+    PlayAgain();
+  }
+}
+
+std::string Player::WaitForEnd(const StopSignals& signals) {
+  terminal::ProgressBar bar("tracking");
+  StartSignal start(parts_.remote);
+  Clock::time_point last_activity = Clock::now();
+  while (!signals.received()) {
+    parts_.bus->Poll(20);
+    parts_.pipeline->Watch();
+    parts_.memory->Tick();
+    if (!job_.play.lossless) start.Tick(*parts_.recorder);
+    Show(*parts_.recorder, &bar);
+    if (parts_.recorder->TakeActivity()) last_activity = Clock::now();
+    const double silence = SecondsSince(last_activity);
+    if (Over(silence)) return "finished";
+    RequireHealthy(silence);
+  }
+  return "interrupted";
+}
+
+bool Player::Over(double silence) const {
+  if (parts_.recorder->Finished()) return true;
+  return !job_.play.lossless && parts_.recorder->progress() >= 1 && silence > kRealTimeSilence;
+}
+
+void Player::RequireHealthy(double silence) const {
+  std::string problem;
+  if (silence > kStuck) problem = "no message from the tracker for 60 s";
+  for (const auto& [name, status] : parts_.recorder->statuses()) {
+    if (status.state == "failed") problem = name + " failed";
+  }
+  if (!problem.empty()) throw std::runtime_error(problem + "; " + StatusText(*parts_.recorder));
+}
+
+// Plays the log again, from the pose it starts with.
+void Player::PlayAgain() {
+  const Recorder& recorder = *parts_.recorder;
+  parts_.remote->Rewind();
+  parts_.recorder->StartOver();
+  const Clock::time_point begin = Clock::now();
+  while (SecondsSince(begin) < 5 && (recorder.Finished() || recorder.progress() >= 1)) {
+    parts_.remote->HintPose(inputs_.start);
+    parts_.bus->Poll(50);
+    // The first order may have been lost.
+    if (SecondsSince(begin) > 1 && recorder.progress() >= 1) parts_.remote->Rewind();
+  }
+  parts_.remote->HintPose(inputs_.start);
+}
+
+void Player::PrintLoop(int loop) const {
+  const Recorder& recorder = *parts_.recorder;
+  const TrajectoryError error = AbsoluteError(inputs_.truth, recorder.online(), Alignment::kNone);
+  std::printf("loop %d: %zu poses, ATE %.2f cm, %s\n", loop, recorder.online().size(),
+              100 * error.position_rmse, recorder.mode().reason.c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace evit::run

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "procman/procman_command.h"
+#include "tools/run/run_job.h"
+
+namespace evit::run {
+
+/// The command lines of the four services for a run, in the order they are started: each before those that
+/// send to it. `url`: of the bus. `start`: T_map_body. Removes what an earlier run left for restarts.
+std::vector<procman::ProcmanCommand> ServiceCommands(const RunJob& job, const std::string& url,
+                                                     const SE3& start);
+
+/// Removes the files that services keep for restarts within a run.
+void RemoveRestartFiles(const RunJob& job);
+
+}  // namespace evit::run

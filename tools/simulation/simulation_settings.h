@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "tools/simulation/disturbance_settings.h"
+#include "tools/simulation/event_sensor.h"
+#include "tools/simulation/map_settings.h"
+#include "tools/simulation/motion_settings.h"
+#include "tools/simulation/room_settings.h"
+#include "tools/simulation/simulated_imu.h"
+
+namespace evit::simulation {
+
+/// What `evit simulate` is asked for.
+struct SimulationSettings {
+  MotionSettings trajectory;
+  RoomSettings room;
+  std::uint64_t seed = 1;    // all noise
+  std::string name;          // of the sequence; empty: from the trajectory
+  std::string out;           // folder, made where missing
+  std::string command;       // kept in simulation.json
+  double max_step_px = 0.7;  // image motion between two renders
+  EventSensorSettings sensor;
+  ImuSettings imu;
+  MapSettings map;
+  DisturbanceSettings disturbances;
+  bool rgbd = false;      // also the map's views as images with depth
+  bool map_only = false;  // write map.pcd (and rgbd/) alone: another map for a sequence that is there
+  int previews = 0;
+  int threads = 2;
+};
+
+}  // namespace evit::simulation
