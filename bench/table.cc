@@ -1,23 +1,15 @@
 #include "bench/table.h"
 
-#include <cstdarg>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
+
+#include "common/text/format_text.h"
 
 namespace evit::bench {
 namespace {
 
 using nlohmann::json;
-
-__attribute__((format(printf, 1, 2))) std::string Text(const char* format, ...) {
-  char text[400];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 json Load(const std::string& path) {
   std::ifstream file(path);
@@ -42,8 +34,8 @@ const json* Find(const Results& results, const std::string& prefix) {
 }
 
 std::string Value(const json& row) {
-  if (row.contains("items/s")) return Text("%.3g M/s", Number(row, "items/s") * 1e-6);
-  return Text("%.3g ms", 1e3 * Seconds(row));
+  if (row.contains("items/s")) return FormatText("%.3g M/s", Number(row, "items/s") * 1e-6);
+  return FormatText("%.3g ms", 1e3 * Seconds(row));
 }
 
 // How many times better ours is.
@@ -55,11 +47,11 @@ double Ratio(const json& ours, const json& reference) {
 std::string Target(const json& row) {
   if (Number(row, "target_items/s") > 0) {
     const bool met = Number(row, "items/s") >= Number(row, "target_items/s");
-    return Text("%.3g M/s %s", Number(row, "target_items/s") * 1e-6, met ? "✓" : "✗");
+    return FormatText("%.3g M/s %s", Number(row, "target_items/s") * 1e-6, met ? "✓" : "✗");
   }
   if (Number(row, "target_s") > 0) {
-    return Text("%.3g ms %s", 1e3 * Number(row, "target_s"),
-                Seconds(row) <= Number(row, "target_s") ? "✓" : "✗");
+    return FormatText("%.3g ms %s", 1e3 * Number(row, "target_s"),
+                      Seconds(row) <= Number(row, "target_s") ? "✓" : "✗");
   }
   return "";
 }
@@ -69,7 +61,8 @@ std::string Bound(const json& row, double bandwidth) {
   if (Number(row, "bytes_per_item") > 0) bytes_per_s = Number(row, "bytes_per_item") * Number(row, "items/s");
   if (Number(row, "bytes") > 0) bytes_per_s = Number(row, "bytes") / Seconds(row);
   if (bytes_per_s <= 0 || bandwidth <= 0) return "arithmetic";
-  return Text("moves %.1f GB/s, %.0f %% of main memory's", bytes_per_s * 1e-9, 100 * bytes_per_s / bandwidth);
+  return FormatText("moves %.1f GB/s, %.0f %% of main memory's", bytes_per_s * 1e-9,
+                    100 * bytes_per_s / bandwidth);
 }
 
 std::string MicroTable(const Results& results) {
@@ -83,11 +76,11 @@ std::string MicroTable(const Results& results) {
     const json* reference = Find(results, name + "/reference");
     out.append("| ").append(name).append(" | ").append(Value(row)).append(" | ");
     out.append(reference == nullptr ? "" : Value(*reference)).append(" | ");
-    out.append(reference == nullptr ? "" : Text("%.1f", Ratio(row, *reference))).append(" | ");
+    out.append(reference == nullptr ? "" : FormatText("%.1f", Ratio(row, *reference))).append(" | ");
     out.append(Target(row)).append(" | ").append(Bound(row, bandwidth)).append(" |\n");
   }
   if (memory != nullptr)
-    out += Text("\nMain memory: %.1f GB/s read and written, one thread.\n", bandwidth * 1e-9);
+    out += FormatText("\nMain memory: %.1f GB/s read and written, one thread.\n", bandwidth * 1e-9);
   return out;
 }
 
@@ -110,15 +103,15 @@ std::string RunTables(const Results& results) {
     std::string error = "-";
     if (!r["ate"].empty()) {
       const json& e = r["ate"][0]["all"];
-      error = Text("%.2f / %.2f", Number(e, "position_rmse_cm"), Number(e, "orientation_rmse_deg"));
+      error = FormatText("%.2f / %.2f", Number(e, "position_rmse_cm"), Number(e, "orientation_rmse_deg"));
     }
     const double rate = 1e-6 * Number(r, "event_rate_per_s");
     if (r["lossless"].get<bool>()) {
       any_lossless = true;
       lossless.append("| ").append(name);
-      lossless += Text(" | %.2f | %.0f | %.2f | %.1f | ", rate, Number(r, "keyframe_rate_hz"),
-                       Number(r, "real_time_factor"), Number(r, "cpu_ms_per_keyframe"));
-      lossless.append(error).append(Text(" | %.0f MB |\n", Peak(r)));
+      lossless += FormatText(" | %.2f | %.0f | %.2f | %.1f | ", rate, Number(r, "keyframe_rate_hz"),
+                             Number(r, "real_time_factor"), Number(r, "cpu_ms_per_keyframe"));
+      lossless.append(error).append(FormatText(" | %.0f MB |\n", Peak(r)));
       continue;
     }
     any_real_time = true;
@@ -137,11 +130,11 @@ std::string RunTables(const Results& results) {
       }
     }
     real_time.append("| ").append(name);
-    real_time +=
-        Text(" | %.2f | %.1f / %.1f / %.1f | %.1f | %.1f / %.1f | %.0f | ", rate, Number(events, "p50_ms"),
-             Number(events, "p99_ms"), Number(events, "max_ms"), Number(part("pose_after_stamp"), "p50_ms"),
-             Number(imu, "p50_ms"), Number(imu, "p99_ms"), lost);
-    real_time.append(error).append(Text(" | %.0f MB |\n", Peak(r)));
+    real_time += FormatText(" | %.2f | %.1f / %.1f / %.1f | %.1f | %.1f / %.1f | %.0f | ", rate,
+                            Number(events, "p50_ms"), Number(events, "p99_ms"), Number(events, "max_ms"),
+                            Number(part("pose_after_stamp"), "p50_ms"), Number(imu, "p50_ms"),
+                            Number(imu, "p99_ms"), lost);
+    real_time.append(error).append(FormatText(" | %.0f MB |\n", Peak(r)));
   }
   return (any_lossless ? lossless : "") + (any_real_time ? real_time : "");
 }
@@ -189,10 +182,10 @@ Results LoadResults(const std::vector<std::string>& files, const std::vector<std
 std::string Tables(const Results& results) {
   std::string out;
   if (!results.context.is_null()) {
-    out =
-        Text("Commit %s, %s, %d CPUs at %d MHz, %s\n\n", results.commit.c_str(),
-             results.context["host_name"].get<std::string>().c_str(), results.context["num_cpus"].get<int>(),
-             results.context["mhz_per_cpu"].get<int>(), results.context["date"].get<std::string>().c_str());
+    out = FormatText("Commit %s, %s, %d CPUs at %d MHz, %s\n\n", results.commit.c_str(),
+                     results.context["host_name"].get<std::string>().c_str(),
+                     results.context["num_cpus"].get<int>(), results.context["mhz_per_cpu"].get<int>(),
+                     results.context["date"].get<std::string>().c_str());
     out += MicroTable(results);
   }
   return out + RunTables(results);

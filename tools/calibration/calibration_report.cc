@@ -3,9 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 #include <vector>
+
+#include "common/text/format_text.h"
 
 namespace evit::calibration {
 namespace {
@@ -13,15 +14,6 @@ namespace {
 constexpr double kDegrees = 57.295779513082323;
 constexpr double kSureTilt = 11.6, kSmallTilt = 0.05 / kDegrees;  // chi-square of 2 dof, 99.7 %; rad
 constexpr char kAxes[] = "xyz";
-
-[[gnu::format(printf, 1, 2)]] std::string Format(const char* format, ...) {
-  char text[240];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 struct Row {
   std::string name;
@@ -35,32 +27,32 @@ std::vector<Row> Rows(const Rig& before, const CameraImuCalibration& c) {
   const Eigen::Vector3d turn =
       kDegrees * LogSO3(before.T_body_camera.q.conjugate() * c.values.T_body_camera.q);
   for (int k = 0; k < 3; ++k) {
-    rows.push_back({Format("T_body_camera %c [mm]", kAxes[k]), 1e3 * before.T_body_camera.p[k],
+    rows.push_back({FormatText("T_body_camera %c [mm]", kAxes[k]), 1e3 * before.T_body_camera.p[k],
                     1e3 * c.values.T_body_camera.p[k], 1e3 * sigma(k), true});
   }
   for (int k = 0; k < 3; ++k) {
-    rows.push_back(
-        {Format("turned about the camera's %c [deg]", kAxes[k]), 0, turn[k], kDegrees * sigma(3 + k), true});
+    rows.push_back({FormatText("turned about the camera's %c [deg]", kAxes[k]), 0, turn[k],
+                    kDegrees * sigma(3 + k), true});
   }
   rows.push_back({"camera.time_offset_us [ms]", 1e3 * ToSeconds(before.camera_time_offset),
                   1e3 * ToSeconds(c.values.offset), 1e3 * sigma(6), true});
   for (int k = 0; k < 2; ++k) {
-    rows.push_back({Format("tilt of the map about its %c [deg]", kAxes[k]), 0, kDegrees * c.values.tilt[k],
-                    kDegrees * sigma(7 + k), false});
+    rows.push_back({FormatText("tilt of the map about its %c [deg]", kAxes[k]), 0,
+                    kDegrees * c.values.tilt[k], kDegrees * sigma(7 + k), false});
   }
   for (int k = 0; k < 3; ++k) {
-    rows.push_back({Format("gyro bias %c [mrad/s]", kAxes[k]), 0, 1e3 * c.values.bias.gyro[k],
+    rows.push_back({FormatText("gyro bias %c [mrad/s]", kAxes[k]), 0, 1e3 * c.values.bias.gyro[k],
                     1e3 * sigma(9 + k), false});
   }
   for (int k = 0; k < 3; ++k) {
-    rows.push_back({Format("accelerometer bias %c [mm/s^2]", kAxes[k]), 0, 1e3 * c.values.bias.accel[k],
+    rows.push_back({FormatText("accelerometer bias %c [mm/s^2]", kAxes[k]), 0, 1e3 * c.values.bias.accel[k],
                     1e3 * sigma(12 + k), false});
   }
   return rows;
 }
 
 std::string Direction(const Unobservable& u, const char* frame) {
-  return Format("(%.2f, %.2f, %.2f) of the %s", u.direction.x(), u.direction.y(), u.direction.z(), frame);
+  return FormatText("(%.2f, %.2f, %.2f) of the %s", u.direction.x(), u.direction.y(), u.direction.z(), frame);
 }
 
 std::string Sentence(const Unobservable& u) {
@@ -70,23 +62,23 @@ std::string Sentence(const Unobservable& u) {
   switch (u.value) {
     case Value::kTranslation:
       return "translation along " + Direction(u, "body") +
-             Format(", known to %.1f cm only: %s; %s", 100 * u.sigma, kKept, kTurn);
+             FormatText(", known to %.1f cm only: %s; %s", 100 * u.sigma, kKept, kTurn);
     case Value::kRotation:
       return "rotation about " + Direction(u, "camera") +
-             Format(", known to %.1f deg only: %s; %s", kDegrees * u.sigma, kKept, kTurn);
+             FormatText(", known to %.1f deg only: %s; %s", kDegrees * u.sigma, kKept, kTurn);
     case Value::kTimeOffset:
-      return Format("time offset, known to %.1f ms only: %s; turn faster", 1e3 * u.sigma, kKept);
+      return FormatText("time offset, known to %.1f ms only: %s; turn faster", 1e3 * u.sigma, kKept);
     case Value::kGyroBias:
       return "gyro bias along " + Direction(u, "body") +
-             Format(", known to %.0f mrad/s only; record for longer", 1e3 * u.sigma);
+             FormatText(", known to %.0f mrad/s only; record for longer", 1e3 * u.sigma);
     case Value::kAccelBias:
       return "accelerometer bias along " + Direction(u, "body") +
-             Format(", known to %.0f mm/s^2 only; tilt the rig this way and that", 1e3 * u.sigma);
+             FormatText(", known to %.0f mm/s^2 only; tilt the rig this way and that", 1e3 * u.sigma);
     case Value::kTilt:
       break;
   }
   return "tilt of the map about " + Direction(u, "map") +
-         Format(", known to %.1f deg only; tilt the rig this way and that", kDegrees * u.sigma);
+         FormatText(", known to %.1f deg only; tilt the rig this way and that", kDegrees * u.sigma);
 }
 
 }  // namespace
@@ -100,20 +92,20 @@ Rig Calibrated(const Rig& before, const CameraImuCalibration& c) {
 
 std::string CalibrationText(const Rig& before, const CameraImuCalibration& c) {
   std::string text =
-      Format("%.1f s, %d poses of the camera, %d left out; turning %.2f, %.2f, %.2f rad/s by axis\n",
-             c.seconds, c.n_poses, c.n_rejected, c.turning[0], c.turning[1], c.turning[2]);
-  text += Format("poses fit the IMU to %.1f mm and %.2f deg, alike for %.0f and %.0f poses\n\n",
-                 1e3 * c.noise.position, kDegrees * c.noise.rotation, c.noise.position_correlation,
-                 c.noise.rotation_correlation);
-  text += Format("%-34s %10s %12s %10s\n", "", "rig file", "calibrated", "sigma");
+      FormatText("%.1f s, %d poses of the camera, %d left out; turning %.2f, %.2f, %.2f rad/s by axis\n",
+                 c.seconds, c.n_poses, c.n_rejected, c.turning[0], c.turning[1], c.turning[2]);
+  text += FormatText("poses fit the IMU to %.1f mm and %.2f deg, alike for %.0f and %.0f poses\n\n",
+                     1e3 * c.noise.position, kDegrees * c.noise.rotation, c.noise.position_correlation,
+                     c.noise.rotation_correlation);
+  text += FormatText("%-34s %10s %12s %10s\n", "", "rig file", "calibrated", "sigma");
   for (const Row& row : Rows(before, c)) {
-    text += Format("%-34s %10s %12.3f %10.3f\n", row.name.c_str(),
-                   row.in_rig ? Format("%.3f", row.before).c_str() : "-", row.after, row.sigma);
+    text += FormatText("%-34s %10s %12.3f %10.3f\n", row.name.c_str(),
+                       row.in_rig ? FormatText("%.3f", row.before).c_str() : "-", row.after, row.sigma);
   }
   const Eigen::Vector3d moved = c.values.T_body_camera.p - before.T_body_camera.p;
-  text += Format("camera turned by %.2f deg and moved by %.1f mm\n",
-                 kDegrees * AngularDistance(before.T_body_camera.q, c.values.T_body_camera.q),
-                 1e3 * moved.norm());
+  text += FormatText("camera turned by %.2f deg and moved by %.1f mm\n",
+                     kDegrees * AngularDistance(before.T_body_camera.q, c.values.T_body_camera.q),
+                     1e3 * moved.norm());
   for (const Unobservable& u : c.unobservable)
     text += "NOT OBSERVABLE from this motion: " + Sentence(u) + "\n";
   return text;
@@ -121,10 +113,12 @@ std::string CalibrationText(const Rig& before, const CameraImuCalibration& c) {
 
 std::string RigComment(const Rig& before, const CameraImuCalibration& c, const std::string& sources) {
   std::string text =
-      "T_body_camera and camera.time_offset_us by evit calibrate; all other values are unchanged.\n" + sources + "\n";
+      "T_body_camera and camera.time_offset_us by evit calibrate; all other values are unchanged.\n" +
+      sources + "\n";
   for (const Row& row : Rows(before, c)) {
     if (!row.in_rig) continue;
-    text += Format("  %s: %.3f, was %.3f, sigma %.3f\n", row.name.c_str(), row.after, row.before, row.sigma);
+    text +=
+        FormatText("  %s: %.3f, was %.3f, sigma %.3f\n", row.name.c_str(), row.after, row.before, row.sigma);
   }
   for (const Unobservable& u : c.unobservable) text += "not observable: " + Sentence(u) + "\n";
   return text;
@@ -137,13 +131,13 @@ std::string TiltAdvice(const CameraImuCalibration& c, const std::string& map, co
   const SE3 T_upright_map{ExpSO3({-tilt.x(), -tilt.y(), 0}), Eigen::Vector3d::Zero()};
   const Eigen::Matrix3d R = T_upright_map.R();
   std::string numbers;
-  for (int r = 0; r < 3; ++r) numbers += Format("%.9f %.9f %.9f 0 ", R(r, 0), R(r, 1), R(r, 2));
+  for (int r = 0; r < 3; ++r) numbers += FormatText("%.9f %.9f %.9f 0 ", R(r, 0), R(r, 1), R(r, 2));
   const SE3 turned = T_upright_map * start;
   const std::string upright = map.substr(0, map.find_last_of('.')) + "_upright.pcd";
-  return Format("The map leans by %.2f deg: gravity is not along its -z. Turn it with\n",
-                kDegrees * tilt.norm()) +
+  return FormatText("The map leans by %.2f deg: gravity is not along its -z. Turn it with\n",
+                    kDegrees * tilt.norm()) +
          "  evit map import " + map + " " + upright + " --transform \"" + numbers + "0 0 0 1\"\n" +
-         Format(
+         FormatText(
              "after which this recording starts at --initial-pose \"%.6f %.6f %.6f %.8f %.8f %.8f %.8f\"; "
              "truth "
              "turns by the same matrix (evit import --T-map-world).\n",

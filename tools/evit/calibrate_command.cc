@@ -86,6 +86,9 @@ void AddCalibrateCommand(CLI::App* app) {
   calibrate->add_option("--config", o->job.config, "Event-only tracking (default: config/evt.textproto)");
   calibrate->add_option("--work", o->job.out, "Folder for the event-only run (default: OUT.evt)");
   calibrate->footer(
+      "Example: evit calibrate --log calib.lcmlog --map map.pcd --rig rig.textproto --initial-pose \"0 0 1 0 "
+      "0 0 1\" "
+      "--out calibrated.textproto\n"
       "Record ten to thirty seconds of lively hand-held motion in view of the map, with rotation about all "
       "three axes;\n"
       "tilt the rig by 45 degrees or more in each direction, which separates accelerometer bias from a tilt "

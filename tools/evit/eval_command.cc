@@ -117,6 +117,9 @@ void AddEvalCommand(CLI::App* app) {
   eval->add_option("--plot", o->plot, "With --covariance: PNG of the errors between their 2-sigma bounds")
       ->needs(covariance);
   eval->add_flag("--json", o->json, "Machine-readable output");
+  eval->footer(
+      "Example: evit eval --truth desk/truth.tum --estimate result/trajectory.tum --covariance "
+      "result/covariance.csv");
   eval->callback([o] { Evaluate(*o); });
 }
 

@@ -26,6 +26,7 @@ void AddImportBag(CLI::App* import) {
   bag->add_option("--truth-topic", job.truth_topic,
                   "geometry_msgs/PoseStamped to take as truth (default: the only one)");
   bag->footer(
+      "Example: evit import bag events.bag imu.bag --rig rig.textproto --out sequence.lcmlog\n"
       "Times are those in the messages. Events, samples and poses that are out of order, not finite or\n"
       "outside the sensor are counted and left out.");
   bag->callback([o] {

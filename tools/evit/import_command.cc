@@ -16,7 +16,8 @@ void PrintDropped(const formats::DropCounts& dropped, const char* what) {
 }  // namespace
 
 void ImportOptions::AddTo(CLI::App* source) {
-  source->add_option("--out", out, "Log to write; the ground truth of the body is written to FILE.truth.tum")->required();
+  source->add_option("--out", out, "Log to write; the ground truth of the body is written to FILE.truth.tum")
+      ->required();
   source->add_option(
       "--T-map-world", transform,
       "16 numbers, row-major 4x4, from the frame of the ground truth to that of the map (default: identity)");

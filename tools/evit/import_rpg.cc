@@ -50,6 +50,7 @@ void AddImportRpg(CLI::App* import) {
     rpg->add_option(name, *value, text)->capture_default_str()->check(CLI::PositiveNumber)->needs(rig);
   }
   rpg->footer(
+      "Example: evit import rpg shapes_6dof --rig-out rig.textproto --out shapes.lcmlog\n"
       "Noise: the defaults are the MPU6150's, in the DAVIS240C. Events, samples and poses that are out of\n"
       "order, not finite or outside the sensor are counted and left out.");
   rpg->callback([o] {

@@ -20,6 +20,7 @@ void AddImportVector(CLI::App* import) {
   vector->add_option("--sequence", o->name, "NAME, e.g. desk_normal")->required();
   vector->add_option("--rig", o->rig, "Calibration (default: config/vector/rig.textproto)");
   o->shared.AddTo(vector);
+  vector->footer("Example: evit import vector ~/vector/desk_normal --sequence desk_normal --out desk.lcmlog");
   vector->callback([o] {
     formats::SequenceImport job;
     o->shared.Apply(&job);

@@ -71,6 +71,7 @@ void AddMapCommand(CLI::App* app) {
                       "16 numbers, row-major 4x4: moves the points (after scaling)");
   convert->add_option("--voxel", o->voxel, "Keep one point per cell of this size, m")
       ->check(CLI::PositiveNumber);
+  convert->footer("Example: evit map import scan_mm.ply map.pcd --scale 0.001 --voxel 0.01");
   convert->callback([o] {
     LoadedMap loaded = LoadMap(o->in);
     const SE3 T = o->transform.empty() ? SE3() : ParseTransform("--transform", o->transform);
@@ -88,6 +89,7 @@ void AddMapCommand(CLI::App* app) {
   info->add_option("FILE", o->in, "Point cloud to read")->required();
   info->add_flag("--json", o->json, "Machine-readable output");
   info->add_option("--png", o->png, "PNG to write: the map from above, coloured by height");
+  info->footer("Example: evit map info map.pcd --png map.png");
   info->callback([o] {
     const LoadedMap loaded = LoadMap(o->in);
     if (!o->png.empty()) pictures::WriteTopView(o->png, loaded.map);

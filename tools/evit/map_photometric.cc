@@ -42,6 +42,7 @@ void AddMapPhotometric(CLI::App* map) {
   command->add_option("--max-depth", o->fusion.max_depth, "Leave out what is farther from the camera, m")
       ->check(CLI::PositiveNumber);
   command->add_option("--every", o->every, "Use every Nth image")->check(CLI::PositiveNumber);
+  command->footer("Example: evit map photometric desk/rgbd --out desk.ply");
   command->callback([o] {
     const formats::RgbdFolder folder(o->folder);
     RgbdFusion fusion(o->fusion);

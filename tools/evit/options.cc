@@ -21,8 +21,7 @@ SE3 ParseTransform(const std::string& option, const std::string& text) {
   std::istringstream words(text);
   Eigen::Matrix<double, 4, 4, Eigen::RowMajor> m;
   for (int k = 0; k < 16; ++k) {
-    if (!(words >> m.data()[k]))
-      throw std::runtime_error(option + ": expected 16 numbers (4x4, row-major)");
+    if (!(words >> m.data()[k])) throw std::runtime_error(option + ": expected 16 numbers (4x4, row-major)");
   }
   const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
   if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || R.determinant() < 0) {

@@ -42,6 +42,7 @@ void AddPaperCommand(CLI::App* app) {
   paper->add_option("--jobs", o->jobs, "Simulations and runs in parallel (default: 2)")
       ->check(CLI::Range(1, 64));
   paper->footer(
+      "Example: evit paper --out paper_result --only I evit evt --quick\n"
       "Ctrl-C keeps everything that is finished; the same command continues from there. A simulation or run "
       "is repeated\n"
       "only when its inputs, its settings or the program changed. OUT/work may be deleted at any time.\n"

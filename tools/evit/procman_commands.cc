@@ -109,6 +109,7 @@ void AddOrder(CLI::App* app, const char* name, const char* help, procman::Sherif
   CLI::App* sub = app->add_subcommand(name, help);
   sub->add_option("command", o->command, "Its id, as listed by evit ps")->required();
   sub->add_option("--lcm-url", o->lcm_url, "Bus (default: that of the pipeline running here)");
+  sub->footer(std::string("Example: evit ") + name + " map_server");
   sub->callback([o, order] {
     const auto bus = OpenBusOfPipeline(o->lcm_url);
     // stop_time_allowed may pass before it has ended.
@@ -122,6 +123,7 @@ void AddProcmanCommands(CLI::App* app) {
   auto url = std::make_shared<std::string>();
   CLI::App* ps = app->add_subcommand("ps", "List the processes of a running pipeline (PM_INFO)");
   ps->add_option("--lcm-url", *url, "Bus (default: that of the pipeline running here)");
+  ps->footer("Example: evit ps");
   ps->callback([url] { Ps(*url); });
 
   AddOrder(app, "start", "Start a command of a running pipeline (PM_ORDERS)",
@@ -139,6 +141,7 @@ void AddProcmanCommands(CLI::App* app) {
       ->check(CLI::NonNegativeNumber);
   logs->add_flag("-f,--follow", o->follow, "Keep printing new output until Ctrl-C");
   logs->add_option("--lcm-url", o->lcm_url, "Bus (default: that of the pipeline running here)");
+  logs->footer("Example: evit logs window_optimizer --lines 100 --follow");
   logs->callback([o] { Logs(*o); });
 }
 

@@ -50,7 +50,11 @@ void AddRunCommand(CLI::App* app) {
   run->add_option("--lcm-url", o->job.lcm_url,
                   "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
   run->add_option("--prefix", o->job.prefix, "Prefix of all channels, so that several pipelines share a bus");
-  run->footer("Exit code: 0 tracked to the end, 1 could not run, 2 LOST or never tracking, 130 interrupted.");
+  run->footer(
+      "Example: evit run --log desk.lcmlog --map desk/map.pcd --rig desk/rig.textproto --initial-from "
+      "desk/truth.tum "
+      "--out result\n"
+      "Exit code: 0 tracked to the end, 1 could not run, 2 LOST or never tracking, 130 interrupted.");
   run->callback([o] {
     run::RunJob& job = o->job;
     if (o->pose.empty() && o->from.empty())

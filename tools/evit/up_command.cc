@@ -122,6 +122,8 @@ void AddUpCommand(CLI::App* app) {
   up->add_option("--lcm-url", o->lcm_url,
                  "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
   up->footer(
+      "Example: EVIT_MAP=map.pcd EVIT_RIG=rig.textproto EVIT_START=\"0 0 0 0 0 0 1\" evit up evit.procman "
+      "robot\n"
       "Commands inherit this environment; EVIT_CONFIG and EVIT_STATE get defaults. Programs are searched "
       "beside "
       "evit, then\n"

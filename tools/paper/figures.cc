@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <stdexcept>
 
 #include "common/config/rig_file.h"
@@ -40,15 +39,15 @@ void Trajectories(const std::string& path, const PaperPlan& plan) {
                    methods);
 }
 
-// What the two figures of keyframes need.
-void WithKeyframes(const PaperPlan& plan,
-                   const std::function<void(const std::string& title, const KeyframeLog&, const Rig&,
-                                            const MapIndex&)>& draw) {
+// Draws a figure of the keyframes that the figures' run recorded.
+void OfKeyframes(const std::string& path, const PaperPlan& plan,
+                 void (*draw)(const std::string& path, const std::string& title, const KeyframeLog&,
+                              const Rig&, const MapIndex&)) {
   const Recording& recording = FigureRecording(plan);
   if (!IsDone(plan.figure_run->job))
     throw std::runtime_error("the figures' run of " + recording.name + " is missing");
   const KeyframeLog log(plan.figure_run->job.folder + "/" + kKeyframeLog);
-  draw(recording.sequence->name() + ", " + plan.figure_run->method.name(), log, LoadRig(recording.rig),
+  draw(path, recording.sequence->name() + ", " + plan.figure_run->method.name(), log, LoadRig(recording.rig),
        MapIndex(LoadMap(recording.map).map));
 }
 
@@ -69,25 +68,16 @@ std::vector<Figure> DrawFigures(const std::string& folder, const PaperPlan& plan
   };
   draw("trajectories.png",
        "Position and rotation of every method against truth over time; a curve ends, with a dot, where its "
-       "method was "
-       "lost",
+       "method was lost",
        [&](const std::string& path) { Trajectories(path, plan); });
   draw("motion_models.png",
        "Initial projection of the map on the time surface from where each motion model expects the camera, "
-       "at an "
-       "instant of jerky motion, and where the window then found it",
-       [&](const std::string& path) {
-         WithKeyframes(plan, [&](const std::string& title, const KeyframeLog& log, const Rig& rig,
-                                 const MapIndex& map) { DrawMotionModels(path, title, log, rig, map); });
-       });
+       "at an instant of jerky motion, and where the window then found it",
+       [&](const std::string& path) { OfKeyframes(path, plan, DrawMotionModels); });
   draw("window.png",
        "A window of keyframes: fields of view on the map from above, the cameras at a larger scale with the "
-       "IMU between "
-       "them, and each time surface with the map on it",
-       [&](const std::string& path) {
-         WithKeyframes(plan, [&](const std::string& title, const KeyframeLog& log, const Rig& rig,
-                                 const MapIndex& map) { DrawWindow(path, title, log, rig, map); });
-       });
+       "IMU between them, and each time surface with the map on it",
+       [&](const std::string& path) { OfKeyframes(path, plan, DrawWindow); });
   return figures;
 }
 

@@ -50,29 +50,24 @@ std::optional<Utime> FirstLoss(const report::Report& report, const Trajectory& e
   return {};
 }
 
+struct AlignmentNames {
+  Alignment alignment;
+  const char *id, *text;
+};
+constexpr AlignmentNames kNames[] = {
+    {Alignment::kFirstPair, "first_pair", "aligned by the first pair of poses, as in the paper"},
+    {Alignment::kUmeyama, "umeyama", "aligned by SE(3) over all poses (Umeyama, without scale)"},
+    {Alignment::kNone, "none", "not aligned (map frame)"}};
+
+const AlignmentNames& NamesOf(Alignment alignment) {
+  return *std::find_if(std::begin(kNames), std::end(kNames),
+                       [&](const AlignmentNames& names) { return names.alignment == alignment; });
+}
+
 }  // namespace
 
-const char* AlignmentId(Alignment alignment) {
-  switch (alignment) {
-    case Alignment::kFirstPair:
-      return "first_pair";
-    case Alignment::kUmeyama:
-      return "umeyama";
-    default:
-      return "none";
-  }
-}
-
-const char* AlignmentText(Alignment alignment) {
-  switch (alignment) {
-    case Alignment::kFirstPair:
-      return "aligned by the first pair of poses, as in the paper";
-    case Alignment::kUmeyama:
-      return "aligned by SE(3) over all poses (Umeyama, without scale)";
-    default:
-      return "not aligned (map frame)";
-  }
-}
+const char* AlignmentId(Alignment alignment) { return NamesOf(alignment).id; }
+const char* AlignmentText(Alignment alignment) { return NamesOf(alignment).text; }
 
 RunScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estimate, std::optional<Utime> lost_at) {
   const Trajectory tracked = Until(estimate, lost_at);

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/evaluation/trajectory.h"
+
 namespace evit::simulation {
 namespace {
 

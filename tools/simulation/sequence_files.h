@@ -1,30 +1,14 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "common/geometry/rig.h"
+#include "tools/simulation/motion.h"
 #include "tools/simulation/simulated_imu.h"
-#include "tools/simulation/simulator.h"
+#include "tools/simulation/simulation_settings.h"
+#include "tools/simulation/simulation_summary.h"
 
 namespace evit::simulation {
-
-/// A folder beside the final one that becomes it only when everything is written.
-class StagedFolder {
- public:
-  /// Throws std::runtime_error where the folder cannot be made or is a file.
-  explicit StagedFolder(const std::string& final_folder);
-  ~StagedFolder();  // without Commit: removes what was staged
-  StagedFolder(const StagedFolder&) = delete;
-  StagedFolder& operator=(const StagedFolder&) = delete;
-
-  std::string File(const std::string& name) const { return (staging_ / name).string(); }
-  void Commit();
-
- private:
-  std::filesystem::path final_, staging_;
-  bool made_ = false;  // the final folder
-};
 
 /// All throw std::runtime_error naming the file.
 void WriteImuFile(const std::string& path, const SimulatedImu& imu);
