@@ -11,6 +11,8 @@
 #include <iterator>
 
 #include "tools/formats/vector/event_file_reader.h"
+#include "tools/simulation/edge_map.h"
+#include "tools/simulation/renderer.h"
 #include "tools/simulation/room.h"
 
 namespace evit::simulation {
