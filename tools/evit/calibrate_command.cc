@@ -32,9 +32,10 @@ std::string Track(CalibrateOptions* o) {
   if (!o->seconds.empty()) job.play.seconds = ParseSeconds(o->seconds);
   if (job.config.empty()) job.config = DataFile("config/evt.textproto");
   if (LoadOptions(job.config).method != PipelineOptions::Method::kEvt) {
-    throw std::runtime_error(job.config +
-                             ": expected evt { }, as in config/evt.textproto: poses that used the IMU already "
-                             "depend on the extrinsics");
+    throw std::runtime_error(
+        job.config +
+        ": expected evt { }, as in config/evt.textproto: poses that used the IMU already "
+        "depend on the extrinsics");
   }
   if (job.out.empty()) job.out = o->out + ".evt";
   job.command = "evit calibrate";

@@ -23,8 +23,8 @@ class Pipeline {
   Pipeline(Bus* bus, const std::string& deputy, const std::vector<procman::ProcmanCommand>& services,
            const std::string& programs, const std::string& logs);
 
-  /// Call often. Throws std::runtime_error, with its last output, where a service that is not to be restarted has
-  /// died, or one dies at every start.
+  /// Call often. Throws std::runtime_error, with its last output, where a service that is not to be restarted
+  /// has died, or one dies at every start.
   void Watch();
 
   /// Ends each, the last one started first: the sources go before those who wait for them.

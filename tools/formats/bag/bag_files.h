@@ -18,9 +18,9 @@ class BagFiles {
   explicit BagFiles(const std::vector<std::string>& paths);
   ~BagFiles();
 
-  /// The topic of one of these types: `requested`, or, where that is empty, the only one there is. Empty where
-  /// there is none and none is requested. Otherwise throws std::runtime_error that lists the topics and names
-  /// `option`.
+  /// The topic of one of these types: `requested`, or, where that is empty, the only one there is. Empty
+  /// where there is none and none is requested. Otherwise throws std::runtime_error that lists the topics and
+  /// names `option`.
   template <std::size_t n>
   std::string FindTopic(const char* const (&types)[n], const std::string& requested,
                         const std::string& option) const {

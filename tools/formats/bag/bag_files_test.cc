@@ -56,7 +56,8 @@ TEST_F(BagFilesTest, IncompleteBagsAreRejected) {
     EXPECT_THAT([&] { BagFiles({path_}); }, ThrowsMessage<std::runtime_error>(HasSubstr(path_))) << share;
   }
   std::ofstream(path_) << "this is not a bag\n";
-  EXPECT_THAT([&] { BagFiles({path_}); }, ThrowsMessage<std::runtime_error>(HasSubstr("not a complete ROS 1 bag")));
+  EXPECT_THAT([&] { BagFiles({path_}); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("not a complete ROS 1 bag")));
   EXPECT_THAT(
       [&] {
         BagFiles({path_, "/no/such.bag"});

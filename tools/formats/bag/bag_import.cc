@@ -41,7 +41,7 @@ ImportSummary ImportBag(const BagImport& job, const std::function<void(double)>&
   const BagFiles files(job.files);
   const std::string events_topic =
       Required(files.FindTopic(kEventTypes, job.events_topic, "--events-topic"), files,
-             "events (dvs_msgs/EventArray or prophesee_event_msgs/EventArray)");
+               "events (dvs_msgs/EventArray or prophesee_event_msgs/EventArray)");
   const std::string imu_topic =
       Required(files.FindTopic(kImuTypes, job.imu_topic, "--imu-topic"), files, "IMU (sensor_msgs/Imu)");
   const std::string truth_topic = files.FindTopic(kTruthTypes, job.truth_topic, "--truth-topic");

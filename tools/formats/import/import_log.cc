@@ -32,9 +32,9 @@ void Clip(List* list, Utime begin, Utime end) {
 
 void CheckHole(const std::string& name, Utime before, Utime after) {
   if (after - before <= kMaxHole) return;
-  throw std::runtime_error(name + ": the time jumps from " + DecimalSeconds(before) + " s to " +
-                           DecimalSeconds(after) +
-                           " s: a damaged time stamp, or several recordings; import each recording separately");
+  throw std::runtime_error(
+      name + ": the time jumps from " + DecimalSeconds(before) + " s to " + DecimalSeconds(after) +
+      " s: a damaged time stamp, or several recordings; import each recording separately");
 }
 
 void CheckImu(const ImportStreams& streams, Utime first_event) {
@@ -43,8 +43,7 @@ void CheckImu(const ImportStreams& streams, Utime first_event) {
     CheckHole(streams.imu_name, streams.imu[k - 1].t, streams.imu[k].t);
   if (streams.imu.back().t < first_event) {
     throw std::runtime_error(
-        streams.imu_name +
-        ": ends before the first event: the files are from different sequences or clocks");
+        streams.imu_name + ": ends before the first event: the files are from different sequences or clocks");
   }
 }
 

@@ -43,8 +43,7 @@ bool LineReader::Refill() {
     Fail("the line does not end; expected a text file with lines \"" + layout_ + "\"");
   std::memmove(buffer_.data(), next_, kept);
   const std::size_t n = std::fread(buffer_.data() + kept, 1, buffer_.size() - kept, file_.get());
-  if (n == 0 && std::ferror(file_.get()) != 0)
-    Fail("reading failed; check the disk or the network");
+  if (n == 0 && std::ferror(file_.get()) != 0) Fail("reading failed; check the disk or the network");
   next_ = buffer_.data();
   end_ = next_ + kept + n;
   n_read_ += static_cast<double>(n);
@@ -81,7 +80,8 @@ std::string_view LineReader::Word() {
 double LineReader::Number() {
   const std::string_view word = Word();
   double value = 0;
-  if (!Parse(word, &value)) Fail("\"" + std::string(word) + "\" is not a number; expected \"" + layout_ + "\"");
+  if (!Parse(word, &value))
+    Fail("\"" + std::string(word) + "\" is not a number; expected \"" + layout_ + "\"");
   return value;
 }
 

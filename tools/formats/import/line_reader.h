@@ -22,7 +22,8 @@ class LineReader {
   /// Goes to the next line that holds something; false at the end of the file.
   bool Next();
 
-  /// The next word as ... ; throws where there is none or it is not such a number. `nan` and `inf` are numbers.
+  /// The next word as ... ; throws where there is none or it is not such a number. `nan` and `inf` are
+  /// numbers.
   double Number();
   std::int64_t Integer();
   /// Decimal seconds, exact to the microsecond; false where it says nan or inf.

@@ -87,7 +87,8 @@ RgbdView RgbdFolder::Load(std::size_t k) const {
   if (image.empty()) throw std::runtime_error(image_path + ": cannot be read as an image");
   if (depth.empty())
     throw std::runtime_error(depth_path + ": cannot be read as an image; each image needs its depth");
-  if (depth.type() != CV_16UC1) throw std::runtime_error(depth_path + ": expected 16-bit depth in millimetres");
+  if (depth.type() != CV_16UC1)
+    throw std::runtime_error(depth_path + ": expected 16-bit depth in millimetres");
   if (depth.size() != image.size())
     throw std::runtime_error(depth_path + ": is not of the size of " + image_path);
   if (image.channels() == 3) cv::cvtColor(image, image, cv::COLOR_BGR2GRAY);
