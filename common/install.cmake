@@ -7,7 +7,7 @@ foreach(NAME ${EVIT_ALGORITHMS})
   set_target_properties(evit_${NAME} PROPERTIES EXPORT_NAME ${NAME})
   install(TARGETS evit_${NAME} EXPORT evit ARCHIVE DESTINATION lib)
 endforeach()
-foreach(FOLDER time simd ${EVIT_ALGORITHMS})
+foreach(FOLDER time simd text ${EVIT_ALGORITHMS})
   install(DIRECTORY ${FOLDER} DESTINATION include/evit/common FILES_MATCHING PATTERN "*.h"
           PATTERN "test_*" EXCLUDE PATTERN wire EXCLUDE)
 endforeach()
