@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/imu/preintegration.h"
+#include "common/imu/propagation.h"
 
 namespace evit {
 namespace {

@@ -63,15 +63,4 @@ class Preintegration {
   Matrix93d d_gyro_bias_ = Matrix93d::Zero(), d_accel_bias_ = Matrix93d::Zero();
 };
 
-/// Pose and velocity of the body, map frame.
-struct NavState {
-  SE3 T_map_body;
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s
-};
-
-/// Moves a state forward over IMU samples (second-order motion model): same midpoint rule, biases subtracted,
-/// gravity (0, 0, -gravity) added.
-NavState PropagateImu(const NavState& state, const std::vector<ImuSample>& samples, const ImuBias& bias,
-                      double gravity);
-
 }  // namespace evit

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "common/imu/propagation.h"
 #include "tests/helpers/handheld_motion.h"
 
 namespace evit {

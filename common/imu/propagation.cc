@@ -1,12 +1,6 @@
-#include "common/imu/imu_sample.h"
-#include "common/imu/preintegration.h"
+#include "common/imu/propagation.h"
 
 namespace evit {
-
-ImuSample InterpolateImu(const ImuSample& a, const ImuSample& b, Utime t) {
-  const double s = static_cast<double>(t - a.t) / static_cast<double>(b.t - a.t);
-  return {t, a.gyro + s * (b.gyro - a.gyro), a.accel + s * (b.accel - a.accel)};
-}
 
 NavState PropagateImu(const NavState& state, const std::vector<ImuSample>& samples, const ImuBias& bias,
                       double gravity) {

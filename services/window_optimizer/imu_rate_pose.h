@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/imu/preintegration.h"
+#include "common/imu/propagation.h"
 #include "common/tracking/state.h"
 #include "services/window_optimizer/imu_history.h"
 

@@ -4,7 +4,7 @@
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
-#include "common/imu/preintegration.h"
+#include "common/imu/propagation.h"
 #include "common/service/numbered_sender.h"
 #include "common/service/status_reporter.h"
 #include "common/tracking/state.h"

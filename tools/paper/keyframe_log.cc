@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "common/bus/codec.h"
+#include "common/imu/propagation.h"
 #include "common/wire/geometry_wire.h"
 #include "common/wire/imu_wire.h"
 

@@ -6,7 +6,7 @@
 
 #include "common/bus/log_file.h"
 #include "common/geometry/rig.h"
-#include "common/imu/preintegration.h"
+#include "common/imu/imu_sample.h"
 #include "common/tracking/state.h"
 #include "evit/window_state_t.hpp"
 
