@@ -5,7 +5,6 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include <utility>
 
 #include "common/calibration/camera_pose_factor.h"
+#include "common/calibration/extrinsic_prior_factor.h"
 #include "common/tracking/ceres_factors.h"
 #include "common/tracking/pose_manifold.h"
 
@@ -24,34 +24,8 @@ constexpr double kStill = 20e-6;  // s: an offset that moves less than this stan
 constexpr int kMoves = 6;
 constexpr double kCauchy = 4;  // whitened length of six residuals from which a pose counts less
 
-// T_body_camera known beforehand.
-class ExtrinsicPrior : public ceres::SizedCostFunction<6, 7> {
- public:
-  explicit ExtrinsicPrior(const CameraImuPrior& prior)
-      : mean_(prior.T_body_camera),
-        root_p_(prior.position_information.llt().matrixU()),
-        root_r_(prior.rotation_information.llt().matrixU()) {}
-  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const SE3 at = PoseFromBlock(parameters[0]);
-    const Eigen::Vector3d turn = LogSO3(mean_.q.conjugate() * at.q);
-    Eigen::Map<Eigen::Matrix<double, 6, 1>> r(residuals);
-    r << root_p_ * (at.p - mean_.p), root_r_ * turn;
-    if (jacobians != nullptr && jacobians[0] != nullptr) {
-      Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> J(jacobians[0]);
-      J.setZero();
-      J.topLeftCorner<3, 3>() = root_p_;
-      J.block<3, 3>(3, 3) = root_r_ * RightJacobianInverseSO3(turn);
-    }
-    return r.allFinite();
-  }
-
- private:
-  SE3 mean_;
-  Eigen::Matrix3d root_p_, root_r_;
-};
-
 // Covariance of the last 15 of the problem's parameters, in the order of `blocks`: columns of the
-// inverse of J' J. (ceres::Covariance would want a QR of the whole chain.)
+// inverse of J' J. (ceres::Covariance would take a QR of the whole chain.)
 bool LastCovariance(ceres::Problem* problem, const std::vector<double*>& blocks, CameraImuCovariance* out) {
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = blocks;
@@ -65,39 +39,12 @@ bool LastCovariance(ceres::Problem* problem, const std::vector<double*>& blocks,
   const Eigen::SparseMatrix<double> H = column_major.transpose() * column_major;
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(H);
   if (ldlt.info() != Eigen::Success) return false;
-  constexpr int kWanted = CameraImuCovariance::RowsAtCompileTime;
-  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(H.rows(), kWanted);
-  unit.bottomRows<kWanted>().setIdentity();
+  constexpr int kLast = CameraImuCovariance::RowsAtCompileTime;
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(H.rows(), kLast);
+  unit.bottomRows<kLast>().setIdentity();
   const Eigen::MatrixXd columns = ldlt.solve(unit);
-  *out = 0.5 * (columns.bottomRows<kWanted>() + columns.bottomRows<kWanted>().transpose());
+  *out = 0.5 * (columns.bottomRows<kLast>() + columns.bottomRows<kLast>().transpose());
   return out->allFinite();
-}
-
-double MedianAbs(std::vector<double> values) {
-  if (values.empty()) return 0;
-  for (double& v : values) v = std::abs(v);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// 1 + 2 (sum of the autocorrelation), up to where it has died away: so many values are worth one.
-double CorrelationTime(const std::vector<std::vector<double>>& axes) {
-  double power = 0;
-  for (const auto& axis : axes) {
-    for (const double v : axis) power += v * v;
-  }
-  double time = 1;
-  const std::size_t n = axes[0].size();
-  for (std::size_t lag = 1; power > 0 && lag < n / 5; ++lag) {
-    double sum = 0;
-    for (const auto& axis : axes) {
-      for (std::size_t k = lag; k < n; ++k) sum += axis[k] * axis[k - lag];
-    }
-    if (sum < 0.05 * power) break;
-    time += 2 * sum / power;
-  }
-  return time;
 }
 
 }  // namespace
@@ -170,7 +117,9 @@ bool CameraImuBatch::SolveOnce(const CameraImuPrior& prior, const PoseNoise& noi
   bias.information.diagonal().segment<3>(9).setConstant(std::pow(prior.gyro_bias_sigma, -2));
   bias.information.diagonal().segment<3>(12).setConstant(std::pow(prior.accel_bias_sigma, -2));
   problem.AddResidualBlock(new PriorFactor(bias), nullptr, states_[0].pose.data(), states_[0].motion.data());
-  problem.AddResidualBlock(new ExtrinsicPrior(prior), nullptr, extrinsic.data());
+  problem.AddResidualBlock(
+      new ExtrinsicPriorFactor(prior.T_body_camera, prior.position_information, prior.rotation_information),
+      nullptr, extrinsic.data());
   const ceres::Matrix tilt_weight = ceres::Matrix::Identity(2, 2) / prior.tilt_sigma,
                       offset_weight = ceres::Matrix::Identity(1, 1) / prior.offset_sigma;
   problem.AddResidualBlock(new ceres::NormalPrior(tilt_weight, ceres::Vector::Zero(2)), nullptr, tilt.data());
@@ -188,7 +137,8 @@ bool CameraImuBatch::SolveOnce(const CameraImuPrior& prior, const PoseNoise& noi
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) return false;
 
-  // The order of CameraImuCovariance; the middle state's velocity goes before its biases, which are wanted.
+  // The order of CameraImuCovariance; the middle state's velocity goes before its biases, which are asked
+  // for.
   std::vector<double*> blocks;
   for (std::size_t k = 0; k < n; ++k) {
     blocks.push_back(states_[k].pose.data());
@@ -222,27 +172,9 @@ Eigen::Matrix<double, 6, 1> CameraImuBatch::Residual(std::size_t k) const {
 }
 
 PoseNoise CameraImuBatch::MeasureNoise() const {
-  std::vector<std::vector<double>> axes(6);
-  for (std::size_t k = 0; k < states_.size(); ++k) {
-    const Eigen::Matrix<double, 6, 1> r = Residual(k);
-    for (int i = 0; i < 6; ++i) axes[i].push_back(r[i]);
-  }
-  const auto sigma = [&](int first) {
-    std::vector<double> all;
-    for (int i = first; i < first + 3; ++i) all.insert(all.end(), axes[i].begin(), axes[i].end());
-    return 1.4826 * MedianAbs(all);
-  };
-  PoseNoise noise;
-  noise.position = std::max(sigma(0), 1e-6);
-  noise.rotation = std::max(sigma(3), 1e-6);
-  // What is far off would be all of the correlation.
-  for (int i = 0; i < 6; ++i) {
-    const double limit = 5 * (i < 3 ? noise.position : noise.rotation);
-    for (double& v : axes[i]) v = std::clamp(v, -limit, limit);
-  }
-  noise.position_correlation = CorrelationTime({axes[0], axes[1], axes[2]});
-  noise.rotation_correlation = CorrelationTime({axes[3], axes[4], axes[5]});
-  return noise;
+  std::vector<Eigen::Matrix<double, 6, 1>> residuals;
+  for (std::size_t k = 0; k < states_.size(); ++k) residuals.push_back(Residual(k));
+  return MeasurePoseNoise(residuals);
 }
 
 int CameraImuBatch::RemoveOutliers(const PoseNoise& noise, double sigmas) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/calibration/imu_track.h"
+#include "common/calibration/pose_noise.h"
 #include "common/evaluation/trajectory.h"
 #include "common/geometry/rig.h"
 #include "common/tracking/state.h"
@@ -31,14 +32,6 @@ struct CameraImuPrior {
   double tilt_sigma = 0.2;                                     // rad
   double gyro_bias_sigma = 0.1;                                // rad/s
   double accel_bias_sigma = 0.1;                               // m/s^2: a sensor calibrated once
-};
-
-/// Residuals of the camera's poses.
-struct PoseNoise {
-  double position = 0.005;          // m, per axis
-  double rotation = 0.002;          // rad
-  double position_correlation = 1;  // so many poses are worth one: errors of neighbours are alike
-  double rotation_correlation = 1;
 };
 
 /// Least squares over a recording: a chain of body states at the instants of the camera's poses, joined by
