@@ -77,7 +77,7 @@ void Ours(benchmark::State& state) {
   double iterations = 0;
   for (auto _ : state) {
     state.PauseTiming();
-    window.Reset(nodes, Prior(nodes.front().state));
+    window.Start(nodes, Prior(nodes.front().state));
     state.ResumeTiming();
     iterations = window.Solve().iterations;
   }

@@ -89,7 +89,7 @@ void RemoveOccluded(const Camera& camera, double margin_px, std::vector<Projecte
   }
   const std::vector<float> hiding = HidingDepths(cells, columns, rows);
   ProjectedPoint* kept = points->data();
-  for (const ProjectedPoint& p : *points) {  // no branch: hard to foretell
+  for (const ProjectedPoint& p : *points) {  // no branch: hard to predict
     const bool hidden = hiding[cell_of(p)] < std::min(p.depth * (1 - kRelative), p.depth - kAbsolute);
     *kept = p;
     kept += hidden ? 0 : 1;

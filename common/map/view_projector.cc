@@ -28,7 +28,7 @@ EVIT_ALWAYS_INLINE std::size_t Block(const ViewProjector::View& view, const floa
                  static_cast<int>(v[l] >= view.top) & static_cast<int>(v[l] <= view.bottom);
   }
   std::size_t kept = 0;
-  for (int l = 0; l < n; ++l) {  // no branch: whether a point is in view is hard to foretell
+  for (int l = 0; l < n; ++l) {  // no branch: whether a point is in view is hard to predict
     out[kept] = {ids[l], {u[l], v[l]}, depth[l]};
     kept += static_cast<std::size_t>(in_view[l]);
   }

@@ -76,13 +76,13 @@ PhotometricTerm EvaluatePhotometric(const PhotometricScene& scene, const SE3& T_
   for (const GradientPoint& g : scene.points) {
     const Seen seen = projector.Look(g.point, derivatives);
     const Vector6d a = scene.Change(g);
-    const double foretold = a.dot(twist) * inverse;
-    const double r = seen.value * per_event - foretold;
+    const double predicted = a.dot(twist) * inverse;
+    const double r = seen.value * per_event - predicted;
     const double s = r * r / c2;
     term.cost += 0.5 * scene.weight * c2 * std::log1p(s);
     if (!derivatives) continue;
     J.head<6>() = per_event * seen.slope;
-    J.tail<6>() = (foretold * inverse * inverse) * pull - inverse * a;
+    J.tail<6>() = (predicted * inverse * inverse) * pull - inverse * a;
     const double w = scene.weight / (1 + s);
     term.gradient += w * r * J;
     term.hessian.selfadjointView<Eigen::Lower>().rankUpdate(J, w);

@@ -30,14 +30,14 @@ struct PhotometricScene {
 
   /// Fills `change`. After points and origin are set.
   void Prepare();
-  /// d(brightness)/dt at the pixel that sees the point, per unit of twist: the change foretold is a . twist.
+  /// d(brightness)/dt at the pixel that sees the point, per unit of twist: the change predicted is a . twist.
   Vector6d Change(const GradientPoint& g) const;
 };
 
 /// Value, gradient and Gauss-Newton Hessian of
 ///   sum over points of weight * rho(r^2) / 2,   r = E(pi(T, P)) / event_norm - a . xi / sqrt(xi^T change xi)
 /// over the tangent (dp, dtheta) of T_map_body and the twist xi. Both images are divided by their size: the
-/// contrast threshold and the speed do not matter (Bryner et al. 2019, Eq. (5); derived anew). E: brightness
+/// contrast threshold and the speed do not matter (Bryner et al. 2019, Eq. (5); derived again). E: brightness
 /// change by the events; a . xi: by the map's gradient, depth and the motion.
 struct PhotometricTerm {
   double cost = 0;

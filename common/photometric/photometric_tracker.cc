@@ -20,18 +20,18 @@ constexpr double kMostLag = 0.5;          // of a frame's interval
 
 PhotometricTracker::PhotometricTracker(const Rig& rig, const PhotometricTrackerOptions& options,
                                        const SE3& T_map_body)
-    : rig_(rig), options_(options) {
+    : rig_(rig), options_(options), solver_(rig, options.photometric) {
   state_.T_map_body = T_map_body;
 }
 
-void PhotometricTracker::StartAnew(const SE3& T_map_body) {
+void PhotometricTracker::Start(const SE3& T_map_body) {
   state_ = BodyState();
   state_.T_map_body = T_map_body;
   rate_.setZero();
   image_speed_ = 0;
   state_time_ = last_interval_ = 0;
   mode_ = TrackerMode::kBootstrapping;
-  reason_ = "starting anew from a pose hint";
+  reason_ = "restarting from a pose hint";
 }
 
 SE3 PhotometricTracker::PoseAfter(const SE3& pose, double seconds) const {
@@ -63,7 +63,10 @@ TrackerOutput PhotometricTracker::Process(const PhotometricFrame& frame) {
     // Events tell of their interval's middle, and are late by the way an edge goes before a pixel fires.
     const double lag = image_speed_ > 0 ? std::min(options_.lag_px / image_speed_, kMostLag * seconds) : 0;
     const double after_events = ToSeconds(frame.t - frame.begin) - 0.5 * seconds + lag;
-    const Solution solution = Solve(frame, PoseAfter(predicted, -after_events));
+    Twist motion;
+    motion << state_.velocity, rate_;
+    const PhotometricSolution solution =
+        solver_.Solve(frame, view_, PoseAfter(predicted, -after_events), motion);
     out.iterations = solution.iterations;
     out.quality.n_points = solution.quality.n_points;
     out.quality.inlier_share = std::clamp(solution.quality.correlation, 0.0, 1.0);
@@ -71,7 +74,7 @@ TrackerOutput PhotometricTracker::Process(const PhotometricFrame& frame) {
       Coast(frame, predicted, "nothing of the map in view has a gradient", &out);
     } else if (solution.quality.correlation < options_.photometric.min_correlation) {
       Coast(frame, predicted,
-            Text("the map does not foretell the events (correlation %.2f)", solution.quality.correlation),
+            Text("the map does not predict the events (correlation %.2f)", solution.quality.correlation),
             &out);
     } else {
       Accept(frame, after_events, solution, &out);
@@ -84,8 +87,8 @@ TrackerOutput PhotometricTracker::Process(const PhotometricFrame& frame) {
   return out;
 }
 
-void PhotometricTracker::Accept(const PhotometricFrame& frame, double after_events, const Solution& solution,
-                                TrackerOutput* out) {
+void PhotometricTracker::Accept(const PhotometricFrame& frame, double after_events,
+                                const PhotometricSolution& solution, TrackerOutput* out) {
   state_.velocity = solution.twist.head<3>() +
                     Eigen::Vector3d(solution.twist.tail<3>()).cross(solution.pose.p - solution.origin);
   rate_ = solution.twist.tail<3>();
@@ -100,9 +103,9 @@ void PhotometricTracker::Accept(const PhotometricFrame& frame, double after_even
   out->information.bottomRightCorner<9, 9>().setIdentity();
   // Without a correlated share: the weight of a point knows already that neighbours err together.
   covariance_ = PoseCovariance(out->information) +
-                CommonCovariance(solution.information, 0, options_.map_sigma_m) +
-                StampCovariance(state_.velocity, state_.T_map_body.q.conjugate() * rate_,
-                                1e-6 * options_.stamp_sigma_us);
+                SystematicCovariance(solution.information, 0, options_.map_sigma_m) +
+                TimeOffsetCovariance(state_.velocity, state_.T_map_body.q.conjugate() * rate_,
+                                     1e-6 * options_.stamp_sigma_us);
   out->covariance = covariance_;
   out->nodes.push_back({frame.t, frame.seq, state_});
 }

@@ -1,37 +1,28 @@
 #pragma once
 
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "common/geometry/rig.h"
 #include "common/photometric/map_view.h"
 #include "common/photometric/photometric_options.h"
-#include "common/photometric/photometric_term.h"
-#include "common/tracking/tracker.h"
+#include "common/photometric/photometric_solver.h"
+#include "common/tracking/tracker_output.h"
 
 namespace evit {
 
-/// Signed event counts of one frame.
-struct PhotometricFrame {
-  Utime t = 0;  // us: the instant the pose is wanted for
-  std::int64_t seq = 0;
-  int n_events = 0;          // since the previous frame
-  Utime begin = 0, end = 0;  // us: events in (begin, end] are counted
-  cv::Mat counts;            // CV_8UC1, EventCounter's
-};
-
-/// EVPT, the paper's photometric baseline (Bryner et al. 2019): brightness changes foretold by the gradient
-/// of a photometric map, its depth and the camera's motion, against the events counted; over pose and
-/// velocity, frame by frame. Nothing of the IMU is used. Ours, beyond it: a map rendered at the prediction
-/// rather than key poses, coarse to fine, a robust kernel, and the speed, which two normalised images leave
-/// open, from the contrast threshold and the velocity before.
+/// EVPT, the paper's photometric baseline (Bryner et al. 2019): brightness changes predicted from the
+/// gradient of a photometric map, its depth and the camera's motion, against the events counted; over pose
+/// and velocity, frame by frame. Nothing of the IMU is used. Ours, beyond it: a map rendered at the
+/// prediction rather than key poses, coarse to fine, a robust kernel, and the speed, which two normalised
+/// images leave open, from the contrast threshold and the velocity before.
 class PhotometricTracker {
  public:
   /// `T_map_body`: pose at the first frame, to some centimetres and degrees.
   PhotometricTracker(const Rig& rig, const PhotometricTrackerOptions& options, const SE3& T_map_body);
 
   /// Whatever it was doing: the body is here.
-  void StartAnew(const SE3& T_map_body);
+  void Start(const SE3& T_map_body);
 
   /// The view that the next frame needs: from where the body is expected then.
   ViewQuery NextQuery() const;
@@ -45,25 +36,14 @@ class PhotometricTracker {
   Utime state_time() const { return state_time_; }
 
  private:
-  struct Solution {
-    SE3 pose;  // when its events were caused
-    Twist twist = Twist::Zero();
-    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-    Matrix6d information = Matrix6d::Identity();  // on the pose
-    PhotometricQuality quality;
-    int iterations = 0;
-    double image_speed = 0;  // pixels/s
-  };
   SE3 PoseAfter(const SE3& pose, double seconds) const;
-  Solution Solve(const PhotometricFrame& frame, const SE3& expected) const;
-  void MinimizeAt(const PhotometricScene& scene, const SE3& expected, const Twist& prior,
-                  Solution* solution) const;
-  void Accept(const PhotometricFrame& frame, double after_events, const Solution& solution,
+  void Accept(const PhotometricFrame& frame, double after_events, const PhotometricSolution& solution,
               TrackerOutput* out);
   void Coast(const PhotometricFrame& frame, const SE3& predicted, const std::string& why, TrackerOutput* out);
 
   Rig rig_;
   PhotometricTrackerOptions options_;
+  PhotometricSolver solver_;
   MapView view_;
   TrackerMode mode_ = TrackerMode::kBootstrapping;
   std::string reason_ = "waiting for the first frame";

@@ -122,7 +122,7 @@ TEST(PhotometricTracker, TheSameInputGivesTheSameBits) {
   EXPECT_EQ(ends[0].q.coeffs(), ends[1].q.coeffs());
 }
 
-TEST(PhotometricTracker, SaysLostWhereTheMapForetellsNothingAndComesBackWithAHint) {
+TEST(PhotometricTracker, SaysLostWhereTheMapPredictsNothingAndComesBackWithAHint) {
   Bench bench(Bench::Truth(1'000'000));
   Utime t = 1'000'000;
   TrackerOutput out;
@@ -144,11 +144,11 @@ TEST(PhotometricTracker, SaysLostWhereTheMapForetellsNothingAndComesBackWithAHin
   }
   EXPECT_EQ(out.mode, TrackerMode::kLost);
   EXPECT_FALSE(out.has_pose);
-  EXPECT_NE(out.reason.find("does not foretell the events"), std::string::npos) << out.reason;
+  EXPECT_NE(out.reason.find("does not predict the events"), std::string::npos) << out.reason;
   EXPECT_TRUE(coasted);
   bench.room.phase = 0;
   bench.before.log_intensity.clear();
-  bench.tracker.StartAnew(Bench::Truth(t));
+  bench.tracker.Start(Bench::Truth(t));
   for (const Utime end = t + 200'000; t < end; t += Bench::kInterval) out = bench.Step(t);
   EXPECT_EQ(out.mode, TrackerMode::kTracking);
   EXPECT_LT((out.nodes.back().state.T_map_body.p - Bench::Truth(t - Bench::kInterval).p).norm(), 0.02);

@@ -5,6 +5,7 @@
 #include "common/tracking/event_alignment.h"
 #include "common/tracking/imu_factor.h"
 #include "common/tracking/prior.h"
+#include "common/tracking/state_matrices.h"
 
 /// The terms of the objective as Ceres cost functions. Pose blocks have 7 numbers and PoseManifold.
 namespace evit {

@@ -4,40 +4,23 @@
 #include <numeric>
 #include <vector>
 
-#include "common/tracking/alignment_lanes.h"
+#include "common/tracking/batch_alignment.h"
 
 namespace evit {
 
-void RobustKernel::Evaluate(double s, double* rho, double* slope) const {
-  const double c2 = scale * scale;
-  switch (kind) {
-    case Kind::kHuber:
-      if (s <= c2) {
-        *rho = s;
-        *slope = 1;
-      } else {
-        const double r = std::sqrt(s);
-        *rho = 2 * scale * r - c2;
-        *slope = scale / r;
-      }
-      return;
-    case Kind::kCauchy:
-      *rho = c2 * std::log1p(s / c2);
-      *slope = c2 / (c2 + s);
-      return;
-    case Kind::kGemanMcClure: {
-      const double w = c2 / (c2 + s);
-      *rho = s * w;
-      *slope = w * w;
-      return;
-    }
-  }
+AlignmentSettings MakeAlignmentSettings(const Rig& rig, const WindowOptions& options) {
+  AlignmentSettings settings;
+  settings.set_camera(rig.camera);
+  settings.T_camera_body = rig.T_body_camera.Inverse();
+  settings.image_sigma = options.image_sigma;
+  settings.kernel = {options.kernel, options.robust_scale / options.image_sigma};
+  return settings;
 }
 
 AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
                                 const AlignmentPoints& points, const SE3& T_map_body, bool derivatives) {
   AlignmentSums sums;
-  SumAlignment(AlignmentLanes(settings, field, level, points, T_map_body), points.local(), derivatives,
+  SumAlignment(BatchAlignment(settings, field, level, points, T_map_body), points.local(), derivatives,
                &sums);
   AlignmentTerm term;
   term.cost = 0.5 * sums.rho;
@@ -60,7 +43,7 @@ AlignmentQuality MeasureAlignment(const AlignmentSettings& settings, const Surfa
   const std::size_t room = points.size() + kLanes;
   std::vector<float> value(room), beside(room);
   std::vector<std::int32_t> inside(room);
-  SampleBeside(AlignmentLanes(settings, field, 0, points, T_map_body), points.local(),
+  SampleBeside(BatchAlignment(settings, field, 0, points, T_map_body), points.local(),
                static_cast<float>(settings.camera().width), static_cast<float>(settings.camera().height),
                static_cast<float>(shift), value.data(), beside.data(), inside.data());
   AlignmentQuality quality;

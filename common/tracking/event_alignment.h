@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 
 #include "common/geometry/lane_camera.h"
+#include "common/geometry/rig.h"
 #include "common/geometry/se3.h"
 #include "common/tracking/alignment_points.h"
 #include "common/tracking/robust_kernel.h"
 #include "common/tracking/surface_field.h"
+#include "common/tracking/tracker_options.h"
 
 namespace evit {
 
@@ -28,6 +30,8 @@ struct AlignmentSettings {
   Camera camera_;
   LaneCamera lane_camera_;
 };
+
+AlignmentSettings MakeAlignmentSettings(const Rig& rig, const WindowOptions& options);
 
 /// Value, gradient and Hessian over the tangent (dp, dtheta) of T_map_body.
 ///

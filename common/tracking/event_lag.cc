@@ -8,10 +8,10 @@ constexpr double kSlow =
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> WhereEventsShow(const AlignmentSettings& settings,
-                                             std::vector<Eigen::Vector3f> points, const SE3& T_map_body,
-                                             const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate,
-                                             double lag_px) {
+std::vector<Eigen::Vector3f> CompensateEventLag(const AlignmentSettings& settings,
+                                                std::vector<Eigen::Vector3f> points, const SE3& T_map_body,
+                                                const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate,
+                                                double lag_px) {
   if (lag_px == 0) return points;
   const Eigen::Matrix3d R_wb = T_map_body.R(), R_bw = R_wb.transpose(), R_cb = settings.T_camera_body.R();
   const Eigen::Vector3d v_body = R_bw * velocity;

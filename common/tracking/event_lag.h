@@ -13,9 +13,9 @@ namespace evit {
 /// Returns `points` (map frame, m) moved to where they seemed to be, `lag_px` pixels behind their motion over
 /// the image, for a body at this pose, with this velocity (m/s, map frame) and angular rate (rad/s, body
 /// frame).
-std::vector<Eigen::Vector3f> WhereEventsShow(const AlignmentSettings& settings,
-                                             std::vector<Eigen::Vector3f> points, const SE3& T_map_body,
-                                             const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate,
-                                             double lag_px);
+std::vector<Eigen::Vector3f> CompensateEventLag(const AlignmentSettings& settings,
+                                                std::vector<Eigen::Vector3f> points, const SE3& T_map_body,
+                                                const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate,
+                                                double lag_px);
 
 }  // namespace evit

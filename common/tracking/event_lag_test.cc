@@ -14,7 +14,7 @@ TEST(EventLag, PointsShowBehindTheirMotionByTheSameNumberOfPixels) {
   const Eigen::Vector3d velocity(0.3, -0.2, 0.1);
   for (const double speed : {0.2, 5.0}) {  // slow and fast: the same lag
     const Eigen::Vector3d rate = speed * Eigen::Vector3d(0.3, 0.5, -0.4);
-    const auto shown = WhereEventsShow(settings, room, pose, speed * velocity, rate, 0.5);
+    const auto shown = CompensateEventLag(settings, room, pose, speed * velocity, rate, 0.5);
     // A moment later, as seen by the body that has moved on.
     constexpr double kDt = 1e-4;
     const SE3 later{(pose.q * ExpSO3(kDt * rate)).normalized(), pose.p + kDt * speed * velocity};
@@ -37,7 +37,7 @@ TEST(EventLag, PointsShowBehindTheirMotionByTheSameNumberOfPixels) {
     }
     EXPECT_GT(n, 100);
   }
-  EXPECT_EQ(WhereEventsShow(settings, room, pose, velocity, {0, 0, 1}, 0), room);
+  EXPECT_EQ(CompensateEventLag(settings, room, pose, velocity, {0, 0, 1}, 0), room);
 }
 
 }  // namespace

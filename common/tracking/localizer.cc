@@ -11,17 +11,17 @@
 namespace evit {
 
 LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& field,
-                         const AlignmentPoints& points, const SE3& start, const StartSigma& sigma, int levels,
+                         const AlignmentPoints& points, const SE3& start, const StartRange& range,
                          int max_iterations) {
   BodyState state;
   state.T_map_body = start;
   StateBlocks blocks = ToBlocks(state);
   StatePrior prior;
   prior.mean = state;
-  prior.information.diagonal().segment<3>(0).setConstant(1 / (sigma.position * sigma.position));
-  prior.information.diagonal().segment<3>(3).setConstant(1 / (sigma.rotation * sigma.rotation));
+  prior.information.diagonal().segment<3>(0).setConstant(1 / (range.position * range.position));
+  prior.information.diagonal().segment<3>(3).setConstant(1 / (range.rotation * range.rotation));
   LocalizerResult result;
-  for (int level = std::min(levels, field.levels()) - 1; level >= 0; --level) {
+  for (int level = std::min(range.levels, field.levels()) - 1; level >= 0; --level) {
     ceres::Problem problem;
     problem.AddParameterBlock(blocks.pose.data(), 7, new PoseManifold);
     problem.AddResidualBlock(new EventAlignmentFactor(&settings, &field, level, &points), nullptr,

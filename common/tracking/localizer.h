@@ -13,15 +13,14 @@ struct LocalizerResult {
 
 /// How far the true pose may lie from the start, one standard deviation. A frame may say nothing about some
 /// direction (all edges parallel, few events): without this it would drift away along it.
-struct StartSigma {
+struct StartRange {
   double position = 0.1;   // m
   double rotation = 0.09;  // rad
+  int levels = 4;          // of the field, to begin with the coarsest of: basins of some 2^(levels+1) pixels
 };
 
-/// `start`: within the basin of the coarsest level, some 2^(levels+1) pixels. `levels`: from 1 to
-/// field.levels().
 LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& field,
-                         const AlignmentPoints& points, const SE3& start, const StartSigma& sigma, int levels,
+                         const AlignmentPoints& points, const SE3& start, const StartRange& range,
                          int max_iterations = 15);
 
 }  // namespace evit

@@ -2,15 +2,17 @@
 
 #include <Eigen/Cholesky>
 
+#include "common/tracking/state_matrices.h"
+
 namespace evit {
 
 Matrix6d PoseCovariance(const Matrix15d& information) {
   const Matrix15d ridge = 1e-9 * Matrix15d(information.diagonal().cwiseMax(1e-9).asDiagonal());
-  const Matrix15d covariance = (information + ridge).ldlt().solve(Matrix15d::Identity());
+  const Matrix15d covariance = Solve(Matrix15d(information + ridge), Matrix15d(Matrix15d::Identity()));
   return 0.5 * (covariance.topLeftCorner<6, 6>() + covariance.topLeftCorner<6, 6>().transpose());
 }
 
-Matrix6d CommonCovariance(const Matrix6d& alignment, double share, double map_sigma) {
+Matrix6d SystematicCovariance(const Matrix6d& alignment, double share, double map_sigma) {
   Matrix6d common = Matrix6d::Zero();
   if (share > 0) {
     // Where a keyframe says nothing of a direction the map cannot pull the pose along it either.
@@ -25,10 +27,20 @@ Matrix6d CommonCovariance(const Matrix6d& alignment, double share, double map_si
   return common;
 }
 
-Matrix6d StampCovariance(const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate, double sigma) {
+Matrix6d TimeOffsetCovariance(const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate, double sigma) {
   Vector6d moved;
   moved << sigma * velocity, sigma * rate;
   return moved * moved.transpose();
+}
+
+void PoseUncertainty::SetAlignment(const Matrix6d& alignment) {
+  systematic_ = SystematicCovariance(alignment, options_.correlated_share, options_.map_sigma_m);
+}
+
+Matrix6d PoseUncertainty::Covariance(const Matrix15d& information, const Eigen::Vector3d& velocity,
+                                     const Eigen::Vector3d& rate) const {
+  return PoseCovariance(information) + systematic_ +
+         TimeOffsetCovariance(velocity, rate, 1e-6 * options_.stamp_sigma_us);
 }
 
 }  // namespace evit

@@ -1,10 +1,11 @@
 #pragma once
 
 #include "common/tracking/state.h"
+#include "common/tracking/tracker_options.h"
 
+/// How well a pose is known. All are 6x6: position (m, map frame), then rotation (rad, right perturbation,
+/// body frame).
 namespace evit {
-
-// All are 6x6: position (m, map frame), then rotation (rad, right perturbation, body frame).
 
 /// Covariance of the pose of a state whose inverse covariance is `information`.
 Matrix6d PoseCovariance(const Matrix15d& information);
@@ -12,11 +13,28 @@ Matrix6d PoseCovariance(const Matrix15d& information);
 /// Covariance of the pose that no number of keyframes lowers: what the map and the edges do wrong is the same
 /// in all of them. `share` of what one keyframe's alignment alone leaves open (`alignment`: its information),
 /// at most some centimetres, and a shift of the whole map (m, per axis).
-Matrix6d CommonCovariance(const Matrix6d& alignment, double share, double map_sigma);
+Matrix6d SystematicCovariance(const Matrix6d& alignment, double share, double map_sigma);
 
 /// What it does to the pose that events come late by an amount which nobody has measured (pixels' latency,
 /// clocks set by hand): the body has moved on by then. `velocity`: m/s, map frame; `rate`: rad/s, body frame;
 /// `sigma`: s.
-Matrix6d StampCovariance(const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate, double sigma);
+Matrix6d TimeOffsetCovariance(const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate, double sigma);
+
+/// The sum of these three, which the trackers report.
+class PoseUncertainty {
+ public:
+  explicit PoseUncertainty(const WindowOptions& options) : options_(options) {}
+
+  /// The newest keyframe whose events the map lies on: `alignment` is the information of these alone. Its
+  /// systematic part stays until the next one.
+  void SetAlignment(const Matrix6d& alignment);
+  /// `information`: inverse covariance of the newest state from all keyframes. Velocity and rate as above.
+  Matrix6d Covariance(const Matrix15d& information, const Eigen::Vector3d& velocity,
+                      const Eigen::Vector3d& rate) const;
+
+ private:
+  WindowOptions options_;
+  Matrix6d systematic_ = Matrix6d::Zero();
+};
 
 }  // namespace evit

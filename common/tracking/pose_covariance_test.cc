@@ -20,15 +20,15 @@ TEST(PoseCovariance, IsThePosesPartOfTheInverse) {
 TEST(PoseCovariance, WhatOneKeyframeLeavesOpenStaysButNotWithoutBound) {
   Matrix6d alignment = Matrix6d::Zero();
   alignment.diagonal() << 1e6, 1e6, 0, 1e8, 1e8, 1e8;  // nothing seen along z
-  const Matrix6d half = CommonCovariance(alignment, 0.5, 0.002);
+  const Matrix6d half = SystematicCovariance(alignment, 0.5, 0.002);
   EXPECT_NEAR(half(0, 0), 0.5e-6 + 4e-6, 1e-8);
   EXPECT_NEAR(half(2, 2), 9e-4 + 4e-6, 1e-8);
   EXPECT_NEAR(half(3, 3), 0.5e-8, 1e-10);
-  EXPECT_NEAR(CommonCovariance(alignment, 0, 0.002)(0, 0), 4e-6, 1e-12);
-  EXPECT_EQ(CommonCovariance(alignment, 0, 0.002)(3, 3), 0);
+  EXPECT_NEAR(SystematicCovariance(alignment, 0, 0.002)(0, 0), 4e-6, 1e-12);
+  EXPECT_EQ(SystematicCovariance(alignment, 0, 0.002)(3, 3), 0);
 }
 
-// Poses of a body that goes on for as long as its events are late.
+// Poses of a body that keeps moving for as long as its events are late.
 TEST(PoseCovariance, LateEventsSpreadPosesAlongTheMotion) {
   const Eigen::Vector3d velocity(0.5, -1, 0.2), rate(2, 0.3, -4);
   constexpr double kSigma = 400e-6;
@@ -44,9 +44,9 @@ TEST(PoseCovariance, LateEventsSpreadPosesAlongTheMotion) {
     error << then.p - T_map_body.p, LogSO3(T_map_body.q.conjugate() * then.q);
     spread += error * error.transpose() / kPoses;
   }
-  const Matrix6d claimed = StampCovariance(velocity, rate, kSigma);
+  const Matrix6d claimed = TimeOffsetCovariance(velocity, rate, kSigma);
   EXPECT_LT((claimed - spread).norm(), 0.03 * spread.norm());
-  EXPECT_EQ(StampCovariance(velocity, rate, 0).norm(), 0);
+  EXPECT_EQ(TimeOffsetCovariance(velocity, rate, 0).norm(), 0);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "common/tracking/prior.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include "common/tracking/state_matrices.h"
 
 namespace evit {
 namespace {
@@ -31,26 +30,20 @@ StatePrior Marginalize(const StatePrior& prior, const AlignmentTerm& alignment, 
   const Matrix15d Hjj = Jj.transpose() * Jj;
   const Vector15d gj = Jj.transpose() * r;
 
-  const Eigen::LDLT<Matrix15d> ldlt(Hii);
   StatePrior next;
-  next.information = Hjj - Hij.transpose() * ldlt.solve(Hij);
+  next.information = Hjj - Hij.transpose() * Solve(Hii, Hij);
   next.information = 0.5 * (next.information + next.information.transpose()).eval();
-  const Vector15d g = gj - Hij.transpose() * ldlt.solve(gi);
+  const Vector15d g = gj - Hij.transpose() * Solve(Hii, gi);
   // The Gaussian's mean is where its gradient vanishes. A small ridge keeps unobserved directions where they
   // are.
   const Matrix15d ridge = 1e-9 * Matrix15d(next.information.diagonal().cwiseMax(1e-12).asDiagonal());
-  const Vector15d step = -(next.information + ridge).ldlt().solve(g);
+  const Vector15d step = -Solve(Matrix15d(next.information + ridge), g);
   next.mean = j;
   next.mean.T_map_body = j.T_map_body.Plus(step.head<6>());
   next.mean.velocity += step.segment<3>(6);
   next.mean.bias.gyro += step.segment<3>(9);
   next.mean.bias.accel += step.segment<3>(12);
   return next;
-}
-
-Matrix15d SquareRoot(const Matrix15d& m) {
-  const Eigen::SelfAdjointEigenSolver<Matrix15d> solver(m);
-  return solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * solver.eigenvectors().transpose();
 }
 
 }  // namespace evit

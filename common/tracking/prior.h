@@ -17,8 +17,4 @@ struct StatePrior {
 StatePrior Marginalize(const StatePrior& prior, const AlignmentTerm& alignment, const ImuTerm& imu,
                        const BodyState& i, const BodyState& j);
 
-/// The upper triangular square root U of a positive semi-definite matrix, U^T U = m: stays finite where m has
-/// no rank.
-Matrix15d SquareRoot(const Matrix15d& m);
-
 }  // namespace evit

@@ -11,7 +11,7 @@ namespace evit {
 SlidingWindow::SlidingWindow(AlignmentSettings alignment, double gravity, const WindowOptions& options)
     : alignment_(std::move(alignment)), gravity_(gravity), options_(options) {}
 
-void SlidingWindow::Reset(std::deque<WindowNode> nodes, const StatePrior& prior) {
+void SlidingWindow::Start(std::deque<WindowNode> nodes, const StatePrior& prior) {
   nodes_ = std::move(nodes);
   prior_ = prior;
 }
@@ -29,16 +29,13 @@ StatePrior SlidingWindow::Eliminate(const StatePrior& prior, const AlignmentTerm
   return Marginalize(prior, alignment, Term(nodes_[n + 1]), nodes_[n].state, nodes_[n + 1].state);
 }
 
-std::optional<WindowNode> SlidingWindow::Push(WindowNode node) {
-  std::optional<WindowNode> left;
+void SlidingWindow::Push(WindowNode node) {
   if (nodes_.size() >= static_cast<std::size_t>(options_.size)) {
     if (options_.first_node == WindowOptions::FirstNode::kPrior)
       prior_ = Eliminate(prior_, Align(nodes_.front()), 0);
-    left = std::move(nodes_.front());
     nodes_.pop_front();
   }
   nodes_.push_back(std::move(node));
-  return left;
 }
 
 SlidingWindow::Summary SlidingWindow::Solve() {
@@ -78,8 +75,6 @@ SlidingWindow::Summary SlidingWindow::Solve() {
 
   Summary result;
   result.iterations = static_cast<int>(summary.iterations.size());
-  result.initial_cost = summary.initial_cost;
-  result.final_cost = summary.final_cost;
   result.usable = summary.IsSolutionUsable();
   if (!result.usable) return result;
   for (std::size_t n = 0; n < nodes_.size(); ++n) {

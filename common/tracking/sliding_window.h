@@ -2,7 +2,6 @@
 
 #include <deque>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "common/tracking/prior.h"
@@ -27,18 +26,17 @@ class SlidingWindow {
  public:
   struct Summary {
     int iterations = 0;
-    double initial_cost = 0, final_cost = 0;
     bool usable = false;  // the solver reached a finite state
   };
 
   SlidingWindow(AlignmentSettings alignment, double gravity, const WindowOptions& options);
 
   /// Starts with these nodes, oldest first. `prior`: on the first of them (FirstNode::kPrior only).
-  void Reset(std::deque<WindowNode> nodes, const StatePrior& prior);
+  void Start(std::deque<WindowNode> nodes, const StatePrior& prior);
 
-  /// Adds the newest node, whose state is a prediction. Where the window is full the oldest leaves: with kind
-  /// PRIOR what it knew stays as a prior on the next. Returns the node that left.
-  std::optional<WindowNode> Push(WindowNode node);
+  /// Adds the newest node, whose state is a prediction. Where the window is full the oldest leaves: with
+  /// FirstNode::kPrior what it knew stays as a prior on the next.
+  void Push(WindowNode node);
 
   Summary Solve();
   /// Takes back what Solve() made of the newest node's surface: it keeps its IMU term alone, and all states

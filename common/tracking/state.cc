@@ -26,7 +26,12 @@ BodyState FromBlocks(const StateBlocks& b) {
   return s;
 }
 
-Eigen::Matrix<double, 15, 1> Minus(const BodyState& b, const BodyState& a) {
+SE3 PoseAfter(const BodyState& state, const Eigen::Vector3d& rate, double seconds) {
+  const SE3& pose = state.T_map_body;
+  return {(pose.q * ExpSO3(seconds * rate)).normalized(), pose.p + seconds * state.velocity};
+}
+
+Vector15d Minus(const BodyState& b, const BodyState& a) {
   Eigen::Matrix<double, 15, 1> d;
   d << b.T_map_body.p - a.T_map_body.p, LogSO3(a.T_map_body.q.conjugate() * b.T_map_body.q),
       b.velocity - a.velocity, b.bias.gyro - a.bias.gyro, b.bias.accel - a.bias.accel;

@@ -31,6 +31,9 @@ BodyState FromBlocks(const StateBlocks& blocks);
 /// Pose and motion behind raw parameter pointers.
 SE3 PoseFromBlock(const double* pose);
 
+/// Pose after `seconds` at the state's velocity and this angular rate (rad/s, body frame).
+SE3 PoseAfter(const BodyState& state, const Eigen::Vector3d& rate, double seconds);
+
 /// Difference b minus a in the tangent of a, 15 numbers.
 Vector15d Minus(const BodyState& b, const BodyState& a);
 

@@ -12,7 +12,6 @@ SurfaceField::SurfaceField(const cv::Mat& surface, int levels) {
     cv::pyrDown(pyramid_.back(), half);  // its pixel (i, j) lies on (2i, 2j)
     pyramid_.push_back(half);
   }
-  mean_ = cv::mean(surface)[0];
 }
 
 LaneField SurfaceField::Lanes(int level) const {

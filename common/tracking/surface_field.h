@@ -20,8 +20,6 @@ class SurfaceField {
   SurfaceField(const cv::Mat& surface, int levels);
 
   int levels() const { return static_cast<int>(pyramid_.size()); }
-  int width() const { return pyramid_[0].cols; }
-  int height() const { return pyramid_[0].rows; }
   const cv::Mat& image(int level) const { return pyramid_[level]; }
 
   struct Sample {
@@ -34,12 +32,8 @@ class SurfaceField {
   /// For samples of many places at once.
   LaneField Lanes(int level) const;
 
-  /// Mean value of the whole field, 0..255: what a point placed at random meets.
-  double mean() const { return mean_; }
-
  private:
   std::vector<cv::Mat> pyramid_;
-  double mean_ = 0;
 };
 
 }  // namespace evit

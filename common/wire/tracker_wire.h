@@ -1,6 +1,8 @@
 #pragma once
 
-#include "common/tracking/tracker.h"
+#include "common/imu/propagation.h"
+#include "common/tracking/keyframe_input.h"
+#include "common/tracking/tracker_output.h"
 #include "evit/body_pose_t.hpp"
 #include "evit/keyframe_t.hpp"
 #include "evit/tracker_mode_t.hpp"

@@ -71,7 +71,7 @@ void PhotometricOptimizer::OnPoseHint(const std::uint8_t* data, std::size_t size
   hints_.OnMessage(data, size);
   const std::optional<SE3> T_map_body = hints_.Take();
   if (!T_map_body) return;
-  tracker_.StartAnew(*T_map_body);
+  tracker_.Start(*T_map_body);
   AskForView();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/tracking/tracker.h"
+#include "common/tracking/tracker_output.h"
 #include "services/window_optimizer/keyframe_queue.h"
 
 namespace evit {

@@ -7,7 +7,7 @@
 
 namespace evit {
 
-TrackerWorker::TrackerWorker(std::unique_ptr<Tracker> tracker, Threading threading)
+TrackerWorker::TrackerWorker(std::unique_ptr<MapTracker> tracker, Threading threading)
     : policy_(threading == Threading::kOwnThread ? std::launch::async : std::launch::deferred),
       tracker_(std::move(tracker)) {}
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "common/tracking/tracker.h"
+#include "common/tracking/map_tracker.h"
 #include "services/window_optimizer/keyframe_queue.h"
 #include "services/window_optimizer/processed_keyframe.h"
 
@@ -19,10 +19,10 @@ class TrackerWorker {
     kOwnThread,     // real time: what comes meanwhile is dealt with at once
     kCallersThread  // in Finish(kWait)
   };
-  TrackerWorker(std::unique_ptr<Tracker> tracker, Threading threading);
+  TrackerWorker(std::unique_ptr<MapTracker> tracker, Threading threading);
 
   /// To be asked and told what to do; null while it works. Not to be kept.
-  Tracker* at_rest() const { return tracker_.get(); }
+  MapTracker* at_rest() const { return tracker_.get(); }
   bool working() const { return work_.valid(); }
 
   /// Begins with a keyframe. `input`: what the tracker needs of it. The tracker must be at rest.
@@ -35,14 +35,14 @@ class TrackerWorker {
 
  private:
   struct Work {
-    std::unique_ptr<Tracker> tracker;
+    std::unique_ptr<MapTracker> tracker;
     TrackerOutput output;
     double solve_ms;
   };
   std::launch policy_;
-  std::unique_ptr<Tracker> tracker_;  // null while its thread has it
-  QueuedKeyframe keyframe_;           // in work
-  std::future<Work> work_;            // last member: the thread ends before anything else is gone
+  std::unique_ptr<MapTracker> tracker_;  // null while its thread has it
+  QueuedKeyframe keyframe_;              // in work
+  std::future<Work> work_;               // last member: the thread ends before anything else is gone
 };
 
 }  // namespace evit

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "common/tracking/synthetic_scene.h"
+#include "common/tracking/tracker.h"
 
 namespace evit {
 namespace {

@@ -31,7 +31,7 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
       load_(&status_),
       restart_(settings.lossless ? "" : settings.checkpoint),
       publisher_(bus, channels, &status_),
-      worker_(std::make_unique<Tracker>(settings.rig, settings.tracker, settings.T_map_body),
+      worker_(MakeTracker(settings.rig, settings.tracker, settings.T_map_body),
               settings.lossless ? TrackerWorker::Threading::kCallersThread
                                 : TrackerWorker::Threading::kOwnThread) {
   Subscribe(bus, channels.keyframe, this, &WindowOptimizer::OnKeyframe);
@@ -40,7 +40,7 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
   Subscribe(bus, channels.pose_hint, this, &WindowOptimizer::OnPoseHint);
   status_.SetState("waiting", "waiting for map_server and for keyframes");
   if (restart_.checkpoint()) {
-    worker_.at_rest()->StartFrom(restart_.checkpoint()->state);
+    worker_.at_rest()->Start(restart_.checkpoint()->state);
     publisher_.PublishAnnouncement(restart_.Announce(Clock::now()));
   }
   AskForPoints(worker_.at_rest()->NextQuery());
@@ -99,7 +99,7 @@ bool WindowOptimizer::ReadyForNext() const {
 }
 
 void WindowOptimizer::StartWork(QueuedKeyframe next) {
-  Tracker* const tracker = worker_.at_rest();
+  MapTracker* const tracker = worker_.at_rest();
   const bool tracking = tracker->mode() == TrackerMode::kTracking;
   if (!settings_.lossless) LimitWork(next, tracking);
   KeyframeInput input = InputOf(next.message);
@@ -140,7 +140,7 @@ bool WindowOptimizer::FinishWork(TrackerWorker::Wait wait) {
 }
 
 void WindowOptimizer::Report(const ProcessedKeyframe& processed) {
-  const Tracker& tracker = *worker_.at_rest();
+  const MapTracker& tracker = *worker_.at_rest();
   const keyframe_t& keyframe = processed.keyframe.message;
   const TrackerOutput& output = processed.output;
   publisher_.PublishWindow(processed);
@@ -174,18 +174,18 @@ void WindowOptimizer::AskForPoints(const VisibilityQuery& query) {
 
 // Those that come while a keyframe is in work are for the one after it.
 void WindowOptimizer::UsePoints() {
-  Tracker* const tracker = worker_.at_rest();
+  MapTracker* const tracker = worker_.at_rest();
   if (tracker == nullptr) return;
   const std::optional<map_points_t> answer = map_.TakeAnswer();
   if (answer) tracker->AddVisible(answer->id, PointsOf(*answer));
 }
 
 void WindowOptimizer::UseHint() {
-  Tracker* const tracker = worker_.at_rest();
+  MapTracker* const tracker = worker_.at_rest();
   if (tracker == nullptr) return;
   const std::optional<SE3> T_map_body = hints_.Take();
   if (!T_map_body) return;
-  tracker->StartAnew(*T_map_body);
+  tracker->Start(*T_map_body);
   restart_.Done();
   imu_rate_pose_.Stop();
   AskForPoints(tracker->NextQuery());
@@ -203,7 +203,7 @@ void WindowOptimizer::CatchUp() {
   if (progress == KeyframeCatchUp::Progress::kWhole) {
     const Checkpoint& checkpoint = *restart_.checkpoint();
     if (checkpoint.tracking())
-      worker_.at_rest()->Resume(checkpoint.t, checkpoint.state, checkpoint.information);
+      worker_.at_rest()->Start(checkpoint.t, checkpoint.state, checkpoint.information);
     restart_.Done();
     queue_.ExpectBurstUpTo(keyframes.back().seq);
     ++status_.Counter("checkpoint.resumed");
@@ -219,7 +219,7 @@ void WindowOptimizer::StartFromCheckpoint() {
   BodyState initial;
   initial.T_map_body = settings_.T_map_body;
   const std::optional<BodyState> predicted = restart_.PredictedAt(queue_.front().message.utime);
-  worker_.at_rest()->StartFrom(predicted.value_or(initial));
+  worker_.at_rest()->Start(predicted.value_or(initial));
   ++status_.Counter(predicted ? "checkpoint.used" : "checkpoint.stale");
   restart_.Done();
   AskForPoints(worker_.at_rest()->NextQuery());

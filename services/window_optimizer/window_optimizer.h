@@ -10,7 +10,7 @@
 #include "common/bus/channels.h"
 #include "common/service/runner.h"
 #include "common/service/status_reporter.h"
-#include "common/tracking/tracker.h"
+#include "common/tracking/map_tracker.h"
 #include "services/window_optimizer/imu_inbox.h"
 #include "services/window_optimizer/imu_rate_pose.h"
 #include "services/window_optimizer/keyframe_inbox.h"

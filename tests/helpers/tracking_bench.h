@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
+#include <numeric>
 #include <vector>
 
+#include "common/tracking/map_tracker.h"
 #include "common/tracking/synthetic_scene.h"
-#include "common/tracking/tracker.h"
 
 namespace evit {
 
@@ -32,20 +34,44 @@ inline Rig TestRig() {
   return rig;
 }
 
-/// Drives a tracker over a synthetic room: the job of frame_builder and map_server.
-struct Bench {
+/// Keyframes of a synthetic room: the job of frame_builder.
+struct KeyframeSource {
   synthetic::Motion motion;
   std::vector<Eigen::Vector3f> room = synthetic::RoomPoints();
   AlignmentSettings settings = synthetic::Alignment();
   ImuBias bias{{0.004, -0.003, 0.002}, {0.03, -0.04, 0.02}};
-  Tracker tracker;
   std::int64_t seq = 0;
   Utime last = 0, clock = 0;  // us to add to all stamps
 
-  explicit Bench(const TrackerOptions& options, const SE3& start) : tracker(TestRig(), options, start) {}
+  /// At `t`, with events under these points.
+  KeyframeInput Next(Utime t, const std::vector<Eigen::Vector3f>& seen_points) {
+    KeyframeInput k;
+    k.t = t + clock;
+    k.seq = seq++;
+    k.n_events = seen_points.empty() ? 100 : 20000;
+    k.surface = synthetic::DrawSurface(settings, seen_points, motion.State(ToSeconds(t)).T_map_body);
+    if (last > 0) k.imu = motion.Samples(last, t, bias);
+    for (ImuSample& s : k.imu) s.t += clock;
+    k.imu_gap = 5000;
+    last = t;
+    return k;
+  }
+  std::vector<std::int32_t> Ids() const {
+    std::vector<std::int32_t> ids(room.size());
+    std::iota(ids.begin(), ids.end(), 0);
+    return ids;
+  }
+  SE3 Truth(Utime t) const { return motion.State(ToSeconds(t)).T_map_body; }
+};
+
+/// Drives a tracker over it, and plays map_server.
+struct Bench : KeyframeSource {
+  std::unique_ptr<MapTracker> tracker;
+
+  Bench(const TrackerOptions& options, const SE3& start) : tracker(MakeTracker(TestRig(), options, start)) {}
 
   TrackerOutput Step(Utime t, const std::vector<Eigen::Vector3f>& seen_points) {
-    const VisibilityQuery query = tracker.NextQuery();
+    const VisibilityQuery query = tracker->NextQuery();
     std::vector<std::int32_t> ids;
     std::vector<Eigen::Vector3f> points;
     const SE3 T = query.T_map_camera.Inverse();
@@ -57,17 +83,8 @@ struct Bench {
       ids.push_back(static_cast<std::int32_t>(k));
       points.push_back(room[k]);
     }
-    tracker.AddVisible(ids, points);
-    KeyframeInput k;
-    k.t = t + clock;
-    k.seq = seq++;
-    k.n_events = seen_points.empty() ? 100 : 20000;
-    k.surface = synthetic::DrawSurface(settings, seen_points, motion.State(ToSeconds(t)).T_map_body);
-    if (last > 0) k.imu = motion.Samples(last, t, bias);
-    for (ImuSample& s : k.imu) s.t += clock;
-    k.imu_gap = 5000;
-    last = t;
-    return tracker.Process(k);
+    tracker->AddVisible(ids, points);
+    return tracker->Process(Next(t, seen_points));
   }
 
   /// High-rate frames of the whole room, until it tracks or 2 s have passed. Moves *t, us; the last output.

@@ -1,4 +1,4 @@
-#include "common/tracking/bootstrap.h"
+#include "common/tracking/visual_inertial_alignment.h"
 
 #include <ceres/problem.h>
 #include <ceres/solver.h>
@@ -42,10 +42,10 @@ bool SolveChain(const std::vector<BootstrapFrame>& frames, double gravity, doubl
 
 }  // namespace
 
-BootstrapResult AlignVisualInertial(const std::vector<BootstrapFrame>& frames, double gravity,
-                                    const BootstrapOptions& options, double imu_noise_factor,
-                                    double position_sigma, double rotation_sigma) {
-  BootstrapResult result;
+VisualInertialAlignment AlignVisualInertial(const std::vector<BootstrapFrame>& frames, double gravity,
+                                            const BootstrapOptions& options, double imu_noise_factor,
+                                            double position_sigma, double rotation_sigma) {
+  VisualInertialAlignment result;
   if (frames.size() < 3) {
     result.reason = "fewer than three frames";
     return result;

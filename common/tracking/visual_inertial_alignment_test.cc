@@ -1,4 +1,4 @@
-#include "common/tracking/bootstrap.h"
+#include "common/tracking/visual_inertial_alignment.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using synthetic::Motion;
 
-TEST(Bootstrap, FindsVelocitiesAndBiasesFromNoisyPoses) {
+TEST(VisualInertialAlignment, FindsVelocitiesAndBiasesFromNoisyPoses) {
   const Motion motion;
   const ImuBias truth{{0.01, -0.008, 0.012}, {0.1, 0.05, -0.08}};
   const ImuNoise noise{7e-4, 1.3e-3, 7e-6, 6e-5};
@@ -42,7 +42,7 @@ TEST(Bootstrap, FindsVelocitiesAndBiasesFromNoisyPoses) {
   }
 }
 
-TEST(Bootstrap, RefusesAMapWhoseZAxisIsNotUp) {
+TEST(VisualInertialAlignment, RefusesAMapWhoseZAxisIsNotUp) {
   const Motion motion;
   const SE3 tilt(ExpSO3({0.3, 0, 0}), {0, 0, 0});
   std::vector<BootstrapFrame> frames;

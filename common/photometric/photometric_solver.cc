@@ -1,4 +1,5 @@
-// The part of PhotometricTracker that finds pose and motion of one frame, coarse to fine.
+#include "common/photometric/photometric_solver.h"
+
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
@@ -6,7 +7,6 @@
 #include <algorithm>
 
 #include "common/photometric/photometric_factor.h"
-#include "common/photometric/photometric_tracker.h"
 #include "common/tracking/pose_manifold.h"
 
 namespace evit {
@@ -15,6 +15,18 @@ namespace {
 // Of one point's squared residual: neighbours share the noise of the same events.
 constexpr double kPointWeight = 0.1;
 constexpr double kBorder = 4;  // pixels of a level, that points keep from the image's border
+
+constexpr int kUnknowns = 12;
+
+Vector6d Sigma(double linear, double angular) {
+  Vector6d sigma;
+  sigma << Eigen::Vector3d::Constant(linear), Eigen::Vector3d::Constant(angular);
+  return sigma;
+}
+
+Vector6d TwistSigma(const PhotometricOptions& options) {
+  return Sigma(options.sigma_velocity, options.sigma_rate);
+}
 
 // Median speed over the image of (some of) the points, pixels/s.
 double ImageSpeed(const PhotometricScene& scene, const SE3& pose, const Twist& twist) {
@@ -39,42 +51,31 @@ double ImageSpeed(const PhotometricScene& scene, const SE3& pose, const Twist& t
 
 }  // namespace
 
-PhotometricTracker::Solution PhotometricTracker::Solve(const PhotometricFrame& frame,
-                                                       const SE3& expected) const {
-  const PhotometricOptions& settings = options_.photometric;
+PhotometricSolver::PhotometricSolver(const Rig& rig, const PhotometricOptions& options)
+    : T_camera_body_(rig.T_body_camera.Inverse()), camera_(rig.camera), options_(options) {}
+
+PhotometricSolution PhotometricSolver::Solve(const PhotometricFrame& frame, const MapView& view,
+                                             const SE3& expected, const Twist& motion) const {
   const double seconds = ToSeconds(frame.end - frame.begin);
-  const EventImage events(frame.counts, settings.contrast_threshold, settings.blur_sigma_px, settings.levels);
-  Solution solution;
+  const EventImage events(frame.counts, options_.contrast_threshold, options_.blur_sigma_px, options_.levels);
+  PhotometricSolution solution;
   solution.pose = expected;
   solution.origin = expected.p;
-  Twist prior;
-  prior << state_.velocity, rate_;
-  solution.twist = prior;
-  Vector6d twist_sigma;
-  twist_sigma << Eigen::Vector3d::Constant(settings.sigma_velocity),
-      Eigen::Vector3d::Constant(settings.sigma_rate);
-
+  solution.twist = motion;
   PhotometricScene scene;
-  scene.T_camera_body = rig_.T_body_camera.Inverse();
-  scene.camera = rig_.camera;
+  scene.T_camera_body = T_camera_body_;
+  scene.camera = camera_;
   scene.events = &events;
   scene.origin = solution.origin;
   scene.weight = kPointWeight;
-  scene.robust_scale = settings.robust_scale;
-  if (view_.log_intensity.empty()) return solution;
-  for (int level = settings.levels - 1; level >= 0; --level) {
+  scene.robust_scale = options_.robust_scale;
+  if (view.log_intensity.empty()) return solution;
+  for (int level = options_.levels - 1; level >= 0; --level) {
     scene.level = level;
-    scene.points.clear();
-    const SE3 T = scene.T_camera_body * expected.Inverse();
-    for (const GradientPoint& g : FindGradientPoints(view_, level, settings.blur_sigma_px,
-                                                     settings.min_gradient, settings.max_points)) {
-      Eigen::Vector2d pixel;
-      if (scene.camera.Project(T * g.point, &pixel) && scene.camera.Contains(pixel, kBorder * (2 << level)))
-        scene.points.push_back(g);
-    }
-    if (static_cast<int>(scene.points.size()) < 12) return solution;
+    scene.points = PointsInImage(view, level, expected);
+    if (static_cast<int>(scene.points.size()) < kUnknowns) return solution;
     scene.Prepare();
-    const TwistFit fit = FitTwist(scene, solution.pose, seconds, prior, twist_sigma);
+    const TwistFit fit = FitTwist(scene, solution.pose, seconds, motion, TwistSigma(options_));
     if (!(fit.event_rms > 0)) return solution;
     solution.twist = fit.twist;
     scene.event_norm = fit.event_rms;
@@ -85,14 +86,23 @@ PhotometricTracker::Solution PhotometricTracker::Solve(const PhotometricFrame& f
   return solution;
 }
 
-void PhotometricTracker::MinimizeAt(const PhotometricScene& scene, const SE3& expected, const Twist& prior,
-                                    Solution* solution) const {
-  const PhotometricOptions& settings = options_.photometric;
-  Vector6d pose_sigma, twist_sigma;
-  pose_sigma << Eigen::Vector3d::Constant(settings.sigma_position_m),
-      Eigen::Vector3d::Constant(settings.sigma_rotation_rad);
-  twist_sigma << Eigen::Vector3d::Constant(settings.sigma_velocity),
-      Eigen::Vector3d::Constant(settings.sigma_rate);
+std::vector<GradientPoint> PhotometricSolver::PointsInImage(const MapView& view, int level,
+                                                            const SE3& expected) const {
+  const SE3 T = T_camera_body_ * expected.Inverse();
+  std::vector<GradientPoint> points;
+  for (const GradientPoint& g :
+       FindGradientPoints(view, level, options_.blur_sigma_px, options_.min_gradient, options_.max_points)) {
+    Eigen::Vector2d pixel;
+    if (camera_.Project(T * g.point, &pixel) && camera_.Contains(pixel, kBorder * (2 << level)))
+      points.push_back(g);
+  }
+  return points;
+}
+
+void PhotometricSolver::MinimizeAt(const PhotometricScene& scene, const SE3& expected, const Twist& prior,
+                                   PhotometricSolution* solution) const {
+  const Vector6d pose_sigma = Sigma(options_.sigma_position_m, options_.sigma_rotation_rad);
+  const Vector6d twist_sigma = TwistSigma(options_);
   BodyState state;
   state.T_map_body = solution->pose;
   StateBlocks blocks = ToBlocks(state);
@@ -105,7 +115,7 @@ void PhotometricTracker::MinimizeAt(const PhotometricScene& scene, const SE3& ex
                            blocks.pose.data(), twist.data());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = settings.max_iterations;
+  options.max_num_iterations = options_.max_iterations;
   options.function_tolerance = 1e-5;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;

@@ -1,4 +1,4 @@
-// The tracker where something is missing: events, IMU samples, time.
+// The tracker where something is missing for a while: events, IMU samples, time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ TEST(Tracker, CoastsOnTheImuWhileThereAreNoEvents) {
   EXPECT_EQ(out.reason.substr(0, 13), "no events for");
 }
 
-TEST(Tracker, AClockThatJumpsIsSaidAndTrackingResumes) {
+TEST(Tracker, AClockThatJumpsIsReportedAndTrackingResumes) {
   for (const Utime jump : {Utime{-5'000'000}, Utime{3'600'000'000}}) {
     const Motion motion;
     Bench bench(TestOptions(), motion.State(1.0).T_map_body);
@@ -53,7 +53,7 @@ TEST(Tracker, AClockThatJumpsIsSaidAndTrackingResumes) {
     TrackerOutput out = bench.UntilTracking(&t);
     ASSERT_EQ(out.mode, TrackerMode::kTracking);
     bench.clock += jump;
-    bench.last = 0;  // frame_builder starts anew
+    bench.last = 0;  // frame_builder starts again
     out = bench.Step(t += 10'000, bench.room);
     EXPECT_EQ(out.mode, TrackerMode::kBootstrapping);
     for (int k = 0; k < 60 && out.mode != TrackerMode::kTracking; ++k)
@@ -70,8 +70,8 @@ TEST(Tracker, ASolveCutShortKeepsTheBestSoFar) {
   ASSERT_EQ(out.mode, TrackerMode::kTracking);
   int whole = 0, cut = 0;
   for (int k = 0; k < 20; ++k) whole += bench.Step(t += 25'000, bench.room).iterations;
-  bench.tracker.set_solve_budget(1e-9);
-  bench.tracker.set_point_share(0.25);
+  bench.tracker->set_solve_budget(1e-9);
+  bench.tracker->set_point_share(0.25);
   for (int k = 0; k < 20; ++k) {
     out = bench.Step(t += 25'000, bench.room);
     cut += out.iterations;
@@ -96,7 +96,7 @@ TEST(Tracker, ImuGapIsReportedAndTrackingResumes) {
   gap.imu = motion.Samples(bench.last, t, bench.bias);
   gap.imu_gap = 300'000;
   bench.last = t;
-  out = bench.tracker.Process(gap);
+  out = bench.tracker->Process(gap);
   EXPECT_EQ(out.mode, TrackerMode::kBootstrapping);
   for (int k = 0; k < 60; ++k) out = bench.Step(t += 10'000, bench.room);
   EXPECT_EQ(out.mode, TrackerMode::kTracking) << out.reason;

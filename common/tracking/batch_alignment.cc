@@ -1,4 +1,4 @@
-#include "common/tracking/alignment_lanes.h"
+#include "common/tracking/batch_alignment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ struct BodyLanes {  // points in the body frame and on the image
 };
 
 template <Camera::Model kModel>
-EVIT_ALWAYS_INLINE void ProjectLanes(const AlignmentLanes& c, const float* x, const float* y, const float* z,
+EVIT_ALWAYS_INLINE void ProjectLanes(const BatchAlignment& c, const float* x, const float* y, const float* z,
                                      BodyLanes* out) {
   const float* const B = c.R_bw;
   const float* const C = c.R_cb;
@@ -43,47 +43,9 @@ EVIT_ALWAYS_INLINE void ProjectLanes(const AlignmentLanes& c, const float* x, co
   }
 }
 
-// rho and rho' of squared residuals s; lanes from n on count nothing.
-EVIT_ALWAYS_INLINE double KernelLanes(const AlignmentLanes& c, const float* s, int n, float* slope) {
-  alignas(64) float rho[kLanes];
-  double sum = 0;
-  const float c2 = c.c * c.c;
-  switch (c.kernel) {
-    case RobustKernel::Kind::kCauchy: {
-      // One logarithm for the product of all: the logarithm was a sixth of a solve.
-      for (int l = 0; l < kLanes; ++l) {
-        rho[l] = 1 + s[l] * c.inverse_c2;
-        slope[l] = 1 / rho[l];
-      }
-      double product = 1;
-      for (int l = 0; l < n; ++l) product *= static_cast<double>(rho[l]);
-      sum = std::log(product) * static_cast<double>(c2);
-      break;
-    }
-    case RobustKernel::Kind::kHuber:
-      for (int l = 0; l < kLanes; ++l) {
-        const float r = std::sqrt(s[l]);
-        const bool inlier = r <= c.c;
-        rho[l] = inlier ? s[l] : 2 * c.c * r - c2;
-        slope[l] = inlier ? 1 : c.c / r;
-      }
-      for (int l = 0; l < n; ++l) sum += static_cast<double>(rho[l]);
-      break;
-    case RobustKernel::Kind::kGemanMcClure:
-      for (int l = 0; l < kLanes; ++l) {
-        const float w = c2 / (c2 + s[l]);
-        rho[l] = s[l] * w;
-        slope[l] = w * w;
-      }
-      for (int l = 0; l < n; ++l) sum += static_cast<double>(rho[l]);
-      break;
-  }
-  return sum;
-}
-
 // J: d(pixel coordinate)/d(position in the body frame, rotation), six arrays of lanes, from the coordinate's
 // derivative (d0, d1) over the normalised plane.
-EVIT_ALWAYS_INLINE void JacobianLanes(const AlignmentLanes& c, const BodyLanes& p, const float* d0,
+EVIT_ALWAYS_INLINE void JacobianLanes(const BatchAlignment& c, const BodyLanes& p, const float* d0,
                                       const float* d1, float focal, float (*J)[kLanes]) {
   const float* const C = c.R_cb;
   for (int l = 0; l < kLanes; ++l) {
@@ -104,7 +66,7 @@ EVIT_ALWAYS_INLINE void JacobianLanes(const AlignmentLanes& c, const BodyLanes& 
 struct PlaneLanes {
   alignas(64) float g0[kLanes], g1[kLanes], m00[kLanes], m01[kLanes], m11[kLanes];
 };
-EVIT_ALWAYS_INLINE void CurvatureLanes(const AlignmentLanes& c, const FieldLanes& f, const float* residual,
+EVIT_ALWAYS_INLINE void CurvatureLanes(const BatchAlignment& c, const FieldLanes& f, const float* residual,
                                        const float* weight, PlaneLanes* out) {
   for (int l = 0; l < kLanes; ++l) {
     const float w = weight[l], r = residual[l], rs = r * c.inverse_sigma;
@@ -122,7 +84,7 @@ EVIT_ALWAYS_INLINE void CurvatureLanes(const AlignmentLanes& c, const FieldLanes
   }
 }
 
-EVIT_ALWAYS_INLINE void DerivativeLanes(const AlignmentLanes& c, const BodyLanes& p, const FieldLanes& f,
+EVIT_ALWAYS_INLINE void DerivativeLanes(const BatchAlignment& c, const BodyLanes& p, const FieldLanes& f,
                                         const float* residual, const float* weight, AlignmentSums* sums) {
   alignas(64) float U[6][kLanes], V[6][kLanes];
   PlaneLanes m;
@@ -146,7 +108,7 @@ EVIT_ALWAYS_INLINE void DerivativeLanes(const AlignmentLanes& c, const BodyLanes
 }
 
 template <Camera::Model kModel, bool kDerivatives>
-EVIT_ALWAYS_INLINE void AddBlock(const AlignmentLanes& c, const float* x, const float* y, const float* z,
+EVIT_ALWAYS_INLINE void AddBlock(const BatchAlignment& c, const float* x, const float* y, const float* z,
                                  int n, AlignmentSums* sums) {
   BodyLanes p;
   FieldLanes f;
@@ -157,14 +119,14 @@ EVIT_ALWAYS_INLINE void AddBlock(const AlignmentLanes& c, const float* x, const 
     residual[l] = (p.ahead[l] * f.value[l] + (1 - p.ahead[l]) * 255) * c.inverse_sigma;
     squared[l] = residual[l] * residual[l];
   }
-  sums->rho += KernelLanes(c, squared, n, weight);
+  sums->rho += KernelLanes(c.kernel, squared, n, weight);
   if (!kDerivatives) return;
   for (int l = 0; l < kLanes; ++l) weight[l] *= l < n ? p.ahead[l] : 0;
   DerivativeLanes(c, p, f, residual, weight, sums);
 }
 
 template <Camera::Model kModel, bool kDerivatives>
-EVIT_ALWAYS_INLINE void AddAll(const AlignmentLanes& c, const PointArrays& points, AlignmentSums* sums) {
+EVIT_ALWAYS_INLINE void AddAll(const BatchAlignment& c, const PointArrays& points, AlignmentSums* sums) {
   const float *x = points.x(), *y = points.y(), *z = points.z();
   const auto n = static_cast<int>(points.size());
   for (int k = 0; k < n; k += kLanes) {
@@ -173,7 +135,7 @@ EVIT_ALWAYS_INLINE void AddAll(const AlignmentLanes& c, const PointArrays& point
 }
 
 template <Camera::Model kModel>
-EVIT_ALWAYS_INLINE void Beside(const AlignmentLanes& c, const PointArrays& points, float width, float height,
+EVIT_ALWAYS_INLINE void Beside(const BatchAlignment& c, const PointArrays& points, float width, float height,
                                float shift, float* value, float* beside, std::int32_t* inside) {
   const auto n = static_cast<int>(points.size());
   for (int k = 0; k < n; k += kLanes) {
@@ -203,23 +165,23 @@ EVIT_ALWAYS_INLINE void Beside(const AlignmentLanes& c, const PointArrays& point
 constexpr auto kPlumbBob = Camera::Model::kPlumbBob;
 constexpr auto kEquidistant = Camera::Model::kEquidistant;
 
-EVIT_MULTIVERSION void PlumbBobTerm(const AlignmentLanes& c, const PointArrays& p, AlignmentSums* sums) {
+EVIT_MULTIVERSION void PlumbBobTerm(const BatchAlignment& c, const PointArrays& p, AlignmentSums* sums) {
   AddAll<kPlumbBob, true>(c, p, sums);
 }
-EVIT_MULTIVERSION void PlumbBobCost(const AlignmentLanes& c, const PointArrays& p, AlignmentSums* sums) {
+EVIT_MULTIVERSION void PlumbBobCost(const BatchAlignment& c, const PointArrays& p, AlignmentSums* sums) {
   AddAll<kPlumbBob, false>(c, p, sums);
 }
-EVIT_MULTIVERSION void EquidistantTerm(const AlignmentLanes& c, const PointArrays& p, AlignmentSums* sums) {
+EVIT_MULTIVERSION void EquidistantTerm(const BatchAlignment& c, const PointArrays& p, AlignmentSums* sums) {
   AddAll<kEquidistant, true>(c, p, sums);
 }
-EVIT_MULTIVERSION void EquidistantCost(const AlignmentLanes& c, const PointArrays& p, AlignmentSums* sums) {
+EVIT_MULTIVERSION void EquidistantCost(const BatchAlignment& c, const PointArrays& p, AlignmentSums* sums) {
   AddAll<kEquidistant, false>(c, p, sums);
 }
-EVIT_MULTIVERSION void PlumbBobBeside(const AlignmentLanes& c, const PointArrays& p, float w, float h,
+EVIT_MULTIVERSION void PlumbBobBeside(const BatchAlignment& c, const PointArrays& p, float w, float h,
                                       float s, float* value, float* beside, std::int32_t* inside) {
   Beside<kPlumbBob>(c, p, w, h, s, value, beside, inside);
 }
-EVIT_MULTIVERSION void EquidistantBeside(const AlignmentLanes& c, const PointArrays& p, float w, float h,
+EVIT_MULTIVERSION void EquidistantBeside(const BatchAlignment& c, const PointArrays& p, float w, float h,
                                          float s, float* value, float* beside, std::int32_t* inside) {
   Beside<kEquidistant>(c, p, w, h, s, value, beside, inside);
 }
@@ -233,31 +195,29 @@ void Copy(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, float* to_R, float
 
 }  // namespace
 
-AlignmentLanes::AlignmentLanes(const AlignmentSettings& settings, const SurfaceField& field, int level,
+BatchAlignment::BatchAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
                                const AlignmentPoints& points, const SE3& T_map_body)
     : camera(settings.lane_camera()),
       fisheye(settings.camera().model == kEquidistant),
       field(field.Lanes(level)),
       inverse_sigma(static_cast<float>(1 / settings.image_sigma)),
-      kernel(settings.kernel.kind),
-      inverse_c2(static_cast<float>(1 / (settings.kernel.scale * settings.kernel.scale))),
-      c(static_cast<float>(settings.kernel.scale)) {
+      kernel(settings.kernel) {
   Copy(T_map_body.R().transpose(), T_map_body.p - points.origin(), R_bw, t_wb);
   Copy(settings.T_camera_body.R(), settings.T_camera_body.p, R_cb, t_cb);
 }
 
-void SumAlignment(const AlignmentLanes& lanes, const PointArrays& points, bool derivatives,
+void SumAlignment(const BatchAlignment& batch, const PointArrays& points, bool derivatives,
                   AlignmentSums* sums) {
   if (derivatives) {
-    (lanes.fisheye ? EquidistantTerm : PlumbBobTerm)(lanes, points, sums);
+    (batch.fisheye ? EquidistantTerm : PlumbBobTerm)(batch, points, sums);
   } else {
-    (lanes.fisheye ? EquidistantCost : PlumbBobCost)(lanes, points, sums);
+    (batch.fisheye ? EquidistantCost : PlumbBobCost)(batch, points, sums);
   }
 }
 
-void SampleBeside(const AlignmentLanes& lanes, const PointArrays& points, float width, float height,
+void SampleBeside(const BatchAlignment& batch, const PointArrays& points, float width, float height,
                   float shift, float* value, float* beside, std::int32_t* inside) {
-  (lanes.fisheye ? EquidistantBeside : PlumbBobBeside)(lanes, points, width, height, shift, value, beside,
+  (batch.fisheye ? EquidistantBeside : PlumbBobBeside)(batch, points, width, height, shift, value, beside,
                                                        inside);
 }
 

@@ -1,0 +1,151 @@
+#include "common/tracking/bootstrapper.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/tracking/gates.h"
+#include "common/tracking/localizer.h"
+#include "common/tracking/place_search.h"
+
+namespace evit {
+namespace {
+
+constexpr StartRange kStart{0.1, 0.09, 4};     // a start pose typed in by hand; a lost tracker
+constexpr StartRange kFollow{0.01, 0.006, 3};  // constant velocity and gyro over some 10 ms
+constexpr std::size_t kSureFrames = 3;
+constexpr std::size_t kMaxFrames = 300;
+constexpr int kPatience = 100;  // frames that do not fit before the start counts as failed
+
+// What the window may believe of its first state: the accuracy of an event-only pose and of the alignment.
+StatePrior FirstPrior(const BodyState& state) {
+  StatePrior prior;
+  prior.mean = state;
+  const auto set = [&](int row, double sigma) {
+    prior.information.diagonal().segment<3>(row).setConstant(1 / (sigma * sigma));
+  };
+  set(0, 0.01), set(3, 0.01), set(6, 0.2), set(9, 0.01), set(12, 0.1);
+  return prior;
+}
+
+}  // namespace
+
+Bootstrapper::Bootstrapper(const Rig& rig, const TrackerOptions& options, const AlignmentSettings& alignment,
+                           const PointSelector* points)
+    : rig_(rig), options_(options), alignment_(alignment), points_(points) {}
+
+void Bootstrapper::Start(const BodyState& state) {
+  state_ = state;
+  if (state.velocity.isZero()) {
+    anchor_.Start(state.T_map_body);
+  } else {
+    anchor_.Start(state.T_map_body, state.velocity);
+  }
+  frames_.clear();
+  rejected_ = 0;
+}
+
+Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool follows,
+                                           const Eigen::Vector3d& rate) {
+  Result result;
+  auto field = std::make_shared<SurfaceField>(keyframe.surface, kStart.levels);
+  std::shared_ptr<Preintegration> imu;
+  if (follows) {
+    imu = std::make_shared<Preintegration>(keyframe.imu, state_.bias, rig_.imu_noise);
+    anchor_.Move(keyframe.imu, state_.bias, rig_.gravity, options_.failure.max_speed);
+  }
+  // In a chain of frames: rotation from the gyro, which is good without any start-up, position from the last
+  // frames. At its beginning: from the anchor.
+  const bool chained = !frames_.empty() && imu != nullptr;
+  const StartRange& range = chained ? kFollow : kStart;
+  BodyState predicted = state_;
+  if (chained) {
+    predicted.T_map_body.q = (state_.T_map_body.q * imu->delta().gamma).normalized();
+    predicted.T_map_body.p = state_.T_map_body.p + imu->dt() * state_.velocity;
+  } else {
+    predicted.T_map_body = anchor_.pose();
+    predicted.T_map_body =
+        InitialPose(alignment_, *points_, *field, predicted, rate, rejected_, keyframe.seq);
+  }
+  result.points = points_->Select(predicted, rate, points_->per_keyframe(), keyframe.seq);
+  const LocalizerResult fit = Localize(alignment_, *field, result.points, predicted.T_map_body, range);
+  result.quality = fit.quality;
+  result.iterations = fit.iterations;
+  if (!WithinReach(fit.T_map_body, predicted.T_map_body, range) ||
+      !LiesOnEvents(fit.quality, options_.bootstrap.min_contrast)) {
+    RejectFrame(&result);
+    return result;
+  }
+  state_.T_map_body = fit.T_map_body;
+  frames_.push_back({{keyframe.t, fit.T_map_body, imu}, keyframe.seq, field, result.points});
+  if (frames_.size() > kMaxFrames) frames_.erase(frames_.begin());
+  state_.velocity = RecentVelocity();
+  if (state_.velocity.norm() > options_.failure.max_speed) {
+    RejectFrame(&result);
+    return result;
+  }
+  // A single frame finds some minimum nearly anywhere; several in a row that agree with gyro and constant
+  // velocity do not.
+  result.status = Result::Status::kUnsure;
+  if (frames_.size() < kSureFrames) return result;
+  rejected_ = 0;
+  anchor_.Start(fit.T_map_body, state_.velocity);
+  result.status = Result::Status::kLocalized;
+  result.reason = "localising high-rate frames";
+  if (ReadyToAlign()) Align(&result);
+  return result;
+}
+
+void Bootstrapper::RejectFrame(Result* result) {
+  frames_.clear();
+  state_.T_map_body = anchor_.pose();
+  state_.velocity = anchor_.velocity();
+  ++rejected_;
+  result->status = Result::Status::kRejected;
+  result->reason = "waiting for events that fit the map";
+  if (rejected_ <= kPatience) return;
+  result->status = Result::Status::kHopeless;
+  result->reason =
+      result->points.size() < kMinPoints
+          ? "no map points in view of the start pose: is the map in metres, and the start pose in its frame?"
+          : "the map does not lie on the events around the start pose";
+}
+
+Eigen::Vector3d Bootstrapper::RecentVelocity() const {
+  if (frames_.size() < 2) return Eigen::Vector3d::Zero();
+  const BootstrapFrame& a = frames_[frames_.size() > 5 ? frames_.size() - 5 : 0].frame;
+  const BootstrapFrame& b = frames_.back().frame;
+  return (b.T_map_body.p - a.T_map_body.p) / ToSeconds(b.t - a.t);
+}
+
+bool Bootstrapper::ReadyToAlign() const {
+  const BootstrapOptions& o = options_.bootstrap;
+  if (static_cast<int>(frames_.size()) < std::max(o.min_frames, 3)) return false;
+  const BootstrapFrame &first = frames_.front().frame, &last = frames_.back().frame;
+  const double moved = (last.T_map_body.p - first.T_map_body.p).norm();
+  const double turned = AngularDistance(first.T_map_body.q, last.T_map_body.q);
+  return moved >= o.min_displacement_m || turned >= o.min_rotation_deg * EIGEN_PI / 180 ||
+         ToSeconds(last.t - first.t) >= o.max_duration_s;
+}
+
+void Bootstrapper::Align(Result* result) {
+  std::vector<BootstrapFrame> chain;
+  for (const LocalizedFrame& f : frames_) chain.push_back(f.frame);
+  const VisualInertialAlignment aligned =
+      AlignVisualInertial(chain, rig_.gravity, options_.bootstrap, options_.window.imu_noise_factor);
+  if (!aligned.success) {
+    result->reason = "visual-inertial alignment rejected: " + aligned.reason;
+    frames_.erase(frames_.begin(), frames_.begin() + static_cast<std::ptrdiff_t>(frames_.size() / 2));
+    return;
+  }
+  const auto n_window = std::min<std::size_t>(frames_.size(), options_.window.size);
+  for (std::size_t k = frames_.size() - n_window; k < frames_.size(); ++k) {
+    LocalizedFrame& f = frames_[k];
+    result->window.push_back(
+        {f.frame.t, f.seq, aligned.states[k], std::move(f.field), std::move(f.points), f.frame.imu});
+  }
+  result->prior = FirstPrior(result->window.front().state);
+  result->status = Result::Status::kAligned;
+  frames_.clear();
+}
+
+}  // namespace evit

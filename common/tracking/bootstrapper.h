@@ -1,0 +1,74 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/geometry/rig.h"
+#include "common/tracking/anchor.h"
+#include "common/tracking/keyframe_input.h"
+#include "common/tracking/point_selector.h"
+#include "common/tracking/sliding_window.h"
+#include "common/tracking/visual_inertial_alignment.h"
+
+namespace evit {
+
+/// The start, and the way back after a loss (paper Sec. III-C): high-rate frames are localised by their
+/// events alone, each from the one before, until velocities and biases can be solved for.
+class Bootstrapper {
+ public:
+  /// `points` must outlive this.
+  Bootstrapper(const Rig& rig, const TrackerOptions& options, const AlignmentSettings& alignment,
+               const PointSelector* points);
+
+  /// Looks for the map around this state. Velocity zero: unknown. The biases are trusted.
+  void Start(const BodyState& state);
+
+  struct Result {
+    enum class Status {
+      kRejected,   // the map does not lie on this frame's events
+      kHopeless,   // nor on those of many frames before it
+      kUnsure,     // it does, but a frame or two may do so by chance
+      kLocalized,  // it does, and several frames in a row agree
+      kAligned     // and velocities and biases are known: `window` is what the sliding window starts with
+    };
+    Status status = Status::kRejected;
+    std::string reason;      // for a person
+    AlignmentPoints points;  // of the map, that the frame was aligned with
+    AlignmentQuality quality;
+    int iterations = 0;
+    std::deque<WindowNode> window;
+    StatePrior prior;  // on the first of these
+  };
+  /// `follows`: the frame's IMU samples tell how the body moved since the frame before. `rate`: rad/s, body
+  /// frame.
+  Result Process(const KeyframeInput& keyframe, bool follows, const Eigen::Vector3d& rate);
+
+  /// Newest estimate. While frames are rejected: the anchor.
+  const BodyState& state() const { return state_; }
+
+ private:
+  struct LocalizedFrame {  // kept until the window takes over
+    BootstrapFrame frame;
+    std::int64_t seq;
+    std::shared_ptr<const SurfaceField> field;
+    AlignmentPoints points;
+  };
+
+  void RejectFrame(Result* result);
+  Eigen::Vector3d RecentVelocity() const;
+  bool ReadyToAlign() const;
+  void Align(Result* result);
+
+  Rig rig_;
+  TrackerOptions options_;
+  AlignmentSettings alignment_;
+  const PointSelector* points_;
+  BodyState state_;
+  Anchor anchor_;
+  int rejected_ = 0;                    // frames in a row, or since the map was last found
+  std::vector<LocalizedFrame> frames_;  // without holes
+};
+
+}  // namespace evit

@@ -1,0 +1,124 @@
+#include "common/tracking/event_only_tracker.h"
+
+#include <algorithm>
+
+#include "common/tracking/gates.h"
+#include "common/tracking/image_speed.h"
+#include "common/tracking/localizer.h"
+
+namespace evit {
+namespace {
+
+constexpr StartRange kRange{0.05, 0.05, 3};  // how far a body may get between two frames, and then some
+constexpr int kPatience = 30;                // frames that do not fit before it says LOST
+
+}  // namespace
+
+EventOnlyTracker::EventOnlyTracker(const Rig& rig, const TrackerOptions& options, const SE3& T_map_body)
+    : options_(options),
+      alignment_(MakeAlignmentSettings(rig, options.window)),
+      points_(rig, alignment_, options.points, options.lag_px),
+      uncertainty_(options.window) {
+  state_.T_map_body = T_map_body;
+}
+
+void EventOnlyTracker::Start(const SE3& T_map_body) {
+  BodyState start;
+  start.T_map_body = T_map_body;
+  Start(start);
+  reason_ = "restarting from a pose hint";
+}
+
+void EventOnlyTracker::Start(const BodyState& state) {
+  state_ = state;
+  rate_.setZero();
+  aligned_at_ = 0;
+  rejected_ = 0;
+  mode_ = TrackerMode::kBootstrapping;
+  reason_ = "continuing from a checkpoint";
+}
+
+void EventOnlyTracker::Start(Utime t, const BodyState& state, const Matrix15d&) {
+  Start(state);
+  aligned_at_ = state_time_ = t;
+  mode_ = TrackerMode::kTracking;
+  reason_ = "resumed from a checkpoint";
+}
+
+VisibilityQuery EventOnlyTracker::NextQuery() const {
+  SE3 pose = state_.T_map_body;
+  pose.p += ToSeconds(PointSelector::kQueryAhead) * state_.velocity;
+  return points_.QueryFrom(pose);
+}
+
+// Which part of the map to ask for is all that the gyro is good for here.
+VisibilityQuery EventOnlyTracker::QueryAfter(const KeyframeInput& keyframe) const {
+  if (keyframe.imu.empty()) return NextQuery();
+  const Utime ahead = std::clamp<Utime>(keyframe.t - state_time_, 0, PointSelector::kFarthestAhead);
+  const Eigen::Vector3d rate = keyframe.imu.back().gyro - state_.bias.gyro;
+  return points_.QueryFrom(PoseAfter(state_, rate, ToSeconds(ahead)));
+}
+
+void EventOnlyTracker::AddVisible(const std::vector<std::int32_t>& ids,
+                                  const std::vector<Eigen::Vector3f>& points) {
+  points_.Add(ids, points, {state_.T_map_body});
+}
+
+TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
+  const double seconds = aligned_at_ > 0 ? ToSeconds(keyframe.t - aligned_at_) : 0;
+  const BodyState predicted = Predict(seconds);
+  const SurfaceField field(keyframe.surface, kRange.levels);
+  const AlignmentPoints points = points_.Select(predicted, rate_, points_.per_keyframe(), keyframe.seq);
+  const LocalizerResult fit = Localize(alignment_, field, points, predicted.T_map_body, kRange);
+  state_time_ = keyframe.t;
+  TrackerOutput out;
+  out.quality = fit.quality;
+  out.iterations = fit.iterations;
+  if (LiesOnEvents(fit.quality, options_.failure.min_contrast)) {
+    Accept(keyframe, seconds, fit.T_map_body);
+    const Matrix6d alignment = EvaluateAlignment(alignment_, field, 0, points, fit.T_map_body, true).hessian;
+    out.information.topLeftCorner<6, 6>() = alignment;
+    out.information.bottomRightCorner<9, 9>().setIdentity();
+    uncertainty_.SetAlignment(alignment);
+    out.covariance = uncertainty_.Covariance(out.information, state_.velocity, rate_);
+    out.nodes.push_back({keyframe.t, keyframe.seq, state_});
+    out.has_pose = true;
+    out.image_speed = MedianImageSpeed(alignment_, points, state_.T_map_body, state_.velocity, rate_);
+  } else {
+    Reject();
+  }
+  out.mode = mode_;
+  out.reason = reason_;
+  return out;
+}
+
+// `seconds` after the newest keyframe that fitted.
+BodyState EventOnlyTracker::Predict(double seconds) const {
+  BodyState predicted = state_;
+  if (options_.window.motion_model != WindowOptions::MotionModel::kPreviousPose && seconds > 0)
+    predicted.T_map_body = PoseAfter(state_, rate_, seconds);
+  return predicted;
+}
+
+void EventOnlyTracker::Accept(const KeyframeInput& keyframe, double seconds, const SE3& T_map_body) {
+  const SE3& previous = state_.T_map_body;
+  if (seconds > 0) {
+    state_.velocity = (T_map_body.p - previous.p) / seconds;
+    rate_ = LogSO3(previous.q.conjugate() * T_map_body.q) / seconds;
+  }
+  state_.T_map_body = T_map_body;
+  aligned_at_ = keyframe.t;
+  rejected_ = 0;
+  mode_ = TrackerMode::kTracking;
+  reason_ = "tracking (event-only)";
+}
+
+void EventOnlyTracker::Reject() {
+  if (++rejected_ <= kPatience) return;
+  state_.velocity.setZero();
+  rate_.setZero();
+  mode_ = TrackerMode::kLost;
+  reason_ = "the map does not lie on the events (event-only)";
+}
+
+}  // namespace evit

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/tracking/map_tracker.h"
+#include "common/tracking/point_selector.h"
+#include "common/tracking/pose_covariance.h"
+
+namespace evit {
+
+/// EVT, the paper's event-only baseline (Sec. IV): each frame is localised by its events alone, from the
+/// previous pose or from that at constant velocity. Nothing of the IMU enters the pose.
+class EventOnlyTracker final : public MapTracker {
+ public:
+  /// `T_map_body`: pose at the first keyframe, to some centimetres and degrees.
+  EventOnlyTracker(const Rig& rig, const TrackerOptions& options, const SE3& T_map_body);
+
+  void Start(const SE3& T_map_body) override;
+  void Start(const BodyState& state) override;
+  void Start(Utime t, const BodyState& state, const Matrix15d& information) override;
+  VisibilityQuery NextQuery() const override;
+  VisibilityQuery QueryAfter(const KeyframeInput& keyframe) const override;
+  void AddVisible(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& points) override;
+  TrackerOutput Process(const KeyframeInput& keyframe) override;
+  void set_point_share(double share) override { points_.set_share(share); }
+  void set_solve_budget(double) override {}  // a frame's solve is short
+  TrackerMode mode() const override { return mode_; }
+  const BodyState& state() const override { return state_; }
+  Utime state_time() const override { return state_time_; }
+  /// From the newest two poses.
+  const Eigen::Vector3d& rate() const override { return rate_; }
+
+ private:
+  BodyState Predict(double seconds) const;
+  void Accept(const KeyframeInput& keyframe, double seconds, const SE3& T_map_body);
+  void Reject();
+
+  TrackerOptions options_;
+  AlignmentSettings alignment_;
+  PointSelector points_;
+  PoseUncertainty uncertainty_;
+  TrackerMode mode_ = TrackerMode::kBootstrapping;
+  std::string reason_ = "waiting for the first keyframe";
+  BodyState state_;                                 // at aligned_at_
+  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s, body frame
+  Utime aligned_at_ = 0;                            // us: newest keyframe whose events the map lay on
+  Utime state_time_ = 0;
+  int rejected_ = 0;  // frames in a row that did not fit
+};
+
+}  // namespace evit

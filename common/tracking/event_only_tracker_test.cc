@@ -1,0 +1,33 @@
+#include "common/tracking/event_only_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/helpers/tracking_bench.h"
+
+namespace evit {
+namespace {
+
+using synthetic::Motion;
+
+TEST(EventOnlyTracker, TracksWithoutTheImuAndSaysWhenItIsLost) {
+  const Motion motion;
+  TrackerOptions options = TestOptions();
+  options.event_only = true;
+  options.window.motion_model = WindowOptions::MotionModel::kPreviousPose;
+  Bench bench(options, motion.State(1.0).T_map_body);
+  bench.bias = {{9, 9, 9}, {99, 99, 99}};  // nothing of it is used
+  TrackerOutput out;
+  for (Utime t = 1'000'000; t <= 2'000'000; t += 3'333) {
+    out = bench.Step(t, bench.room);
+    ASSERT_EQ(out.mode, TrackerMode::kTracking);
+    ASSERT_TRUE(out.has_pose);
+    EXPECT_LT((out.nodes.back().state.T_map_body.p - motion.State(ToSeconds(t)).T_map_body.p).norm(), 0.02);
+  }
+  EXPECT_GT(out.covariance(0, 0), 0);
+  const auto other = synthetic::RoomPoints(60, 99);
+  for (int k = 0; k < 60; ++k) out = bench.Step(2'003'333 + k * 3'333, other);
+  EXPECT_EQ(out.mode, TrackerMode::kLost);
+}
+
+}  // namespace
+}  // namespace evit

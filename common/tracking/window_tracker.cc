@@ -1,0 +1,127 @@
+#include "common/tracking/window_tracker.h"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "common/imu/propagation.h"
+#include "common/tracking/gates.h"
+#include "common/tracking/text.h"
+
+namespace evit {
+
+WindowTracker::WindowTracker(const Rig& rig, const TrackerOptions& options,
+                             const AlignmentSettings& alignment, const PointSelector* points)
+    : rig_(rig),
+      options_(options),
+      alignment_(alignment),
+      points_(points),
+      window_(alignment, rig.gravity, options.window),
+      uncertainty_(options.window) {}
+
+void WindowTracker::Start(std::deque<WindowNode> nodes, const StatePrior& prior) {
+  window_.Start(std::move(nodes), prior);
+  window_.Solve();
+  aligned_at_ = window_.nodes().back().t;
+}
+
+void WindowTracker::Start(Utime t, const BodyState& state, const Matrix15d& information) {
+  WindowNode node;
+  node.t = aligned_at_ = t;
+  node.state = state;
+  // What its surface said is in the information already.
+  const cv::Mat nothing(rig_.camera.height, rig_.camera.width, CV_8UC1, cv::Scalar(255));
+  node.field = std::make_shared<SurfaceField>(nothing, 1);
+  window_.Start({std::move(node)}, {state, information});
+}
+
+BodyState WindowTracker::Predict(const KeyframeInput& keyframe) const {
+  const std::deque<WindowNode>& nodes = window_.nodes();
+  BodyState predicted = state();
+  switch (options_.window.motion_model) {
+    case WindowOptions::MotionModel::kPreviousPose:
+      break;
+    case WindowOptions::MotionModel::kConstantVelocity: {
+      if (nodes.size() < 2) break;
+      const WindowNode &a = nodes[nodes.size() - 2], &b = nodes.back();
+      const double s = ToSeconds(keyframe.t - b.t) / ToSeconds(b.t - a.t);
+      const SE3 step = a.state.T_map_body.Inverse() * b.state.T_map_body;
+      predicted.T_map_body.q = (predicted.T_map_body.q * ExpSO3(s * LogSO3(step.q))).normalized();
+      predicted.T_map_body.p += s * (b.state.T_map_body.p - a.state.T_map_body.p);
+      break;
+    }
+    case WindowOptions::MotionModel::kImu: {
+      const NavState nav = PropagateImu({predicted.T_map_body, predicted.velocity}, keyframe.imu,
+                                        predicted.bias, rig_.gravity);
+      predicted.T_map_body = nav.T_map_body;
+      predicted.velocity = nav.velocity;
+    }
+  }
+  return predicted;
+}
+
+WindowNode WindowTracker::PredictedNode(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) const {
+  WindowNode node;
+  node.t = keyframe.t;
+  node.seq = keyframe.seq;
+  node.state = Predict(keyframe);
+  node.field = std::make_shared<SurfaceField>(keyframe.surface, 1);
+  if (keyframe.n_events >= options_.min_events)
+    node.points = points_->Select(node.state, rate, points_->affordable(), keyframe.seq);
+  node.imu = std::make_shared<Preintegration>(keyframe.imu, state().bias, rig_.imu_noise);
+  return node;
+}
+
+WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, const Eigen::Vector3d& rate,
+                                             TrackerOutput* out) {
+  window_.Push(PredictedNode(keyframe, rate));
+  std::vector<BodyState> predicted;
+  for (const WindowNode& node : window_.nodes()) predicted.push_back(node.state);
+  const SlidingWindow::Summary solve = window_.Solve();
+  const WindowNode& newest = window_.nodes().back();
+  out->iterations = solve.iterations;
+  out->quality = MeasureAlignment(alignment_, *newest.field, newest.points, newest.state.T_map_body);
+
+  Result result;
+  result.coasting = WhyCoast(keyframe, out->quality);
+  if (result.coasting.empty()) {
+    aligned_at_ = keyframe.t;
+    uncertainty_.SetAlignment(newest.alignment.hessian);
+  } else {
+    // A surface that the map does not lie on would only pull the pose away.
+    window_.DropNewestAlignment(predicted);
+  }
+  out->information = window_.NewestInformation();
+  out->covariance = uncertainty_.Covariance(out->information, newest.state.velocity, rate);
+
+  const std::string impossible = WhatIsImpossible(newest.state, options_.failure);
+  result.failure = !solve.usable         ? "the solver failed"
+                   : !impossible.empty() ? impossible
+                                         : WhyLost(result.coasting, out->covariance);
+  result.restart = newest.state;
+  if (!impossible.empty()) {
+    // It has diverged: the prediction from the state before is the better place to look.
+    result.restart = BodyState();
+    result.restart.T_map_body = predicted.back().T_map_body;
+  }
+  return result;
+}
+
+// Why the newest keyframe's events do not count; empty where they do.
+std::string WindowTracker::WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality) const {
+  if (keyframe.n_events < options_.min_events) return "no events";
+  if (window_.nodes().back().points.size() < kMinPoints) return "no map points in view";
+  if (!LiesOnEvents(quality, options_.failure.min_contrast)) return "the map does not lie on the events";
+  return "";
+}
+
+// Why coasting cannot continue; empty where it can.
+std::string WindowTracker::WhyLost(const std::string& coasting, const Matrix6d& covariance) const {
+  if (coasting.empty()) return "";
+  const double coasted = ToSeconds(window_.nodes().back().t - aligned_at_);
+  const double sigma = std::sqrt(covariance.topLeftCorner<3, 3>().diagonal().maxCoeff());
+  if (coasted <= options_.failure.max_coast_s && sigma <= options_.failure.max_position_sigma_m) return "";
+  return coasting + Text(" for %.1f s, position known to %.2f m", coasted, sigma);
+}
+
+}  // namespace evit

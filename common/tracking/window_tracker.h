@@ -1,0 +1,62 @@
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "common/geometry/rig.h"
+#include "common/tracking/keyframe_input.h"
+#include "common/tracking/point_selector.h"
+#include "common/tracking/pose_covariance.h"
+#include "common/tracking/sliding_window.h"
+#include "common/tracking/tracker_options.h"
+#include "common/tracking/tracker_output.h"
+
+namespace evit {
+
+/// The tracker at work (paper Sec. III-D): each keyframe is predicted, aligned with the map together with
+/// those before it in the sliding window, and judged. Where its events say nothing of the pose the IMU alone
+/// carries it for a while.
+class WindowTracker {
+ public:
+  /// `points` must outlive this.
+  WindowTracker(const Rig& rig, const TrackerOptions& options, const AlignmentSettings& alignment,
+                const PointSelector* points);
+
+  /// With the nodes and the prior on the first of them that bootstrapping found.
+  void Start(std::deque<WindowNode> nodes, const StatePrior& prior);
+  /// With one keyframe of which all is known already (`information`: inverse covariance of its state).
+  void Start(Utime t, const BodyState& state, const Matrix15d& information);
+
+  /// State at a keyframe that follows the newest, by the motion model.
+  BodyState Predict(const KeyframeInput& keyframe) const;
+
+  struct Result {
+    std::string coasting;  // why the IMU alone carried the pose; empty where the events count
+    std::string failure;   // why tracking cannot continue; empty where it can
+    BodyState restart;     // where to look for the map in that case
+  };
+  /// Fills what `out` says of the newest state. `rate`: rad/s, body frame.
+  Result Process(const KeyframeInput& keyframe, const Eigen::Vector3d& rate, TrackerOutput* out);
+
+  void set_solve_budget(double seconds) { window_.set_time_budget(seconds); }
+
+  /// Newest estimate. At least one node, once started.
+  const BodyState& state() const { return window_.nodes().back().state; }
+  const std::deque<WindowNode>& nodes() const { return window_.nodes(); }
+
+ private:
+  WindowNode PredictedNode(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) const;
+  std::string WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality) const;
+  std::string WhyLost(const std::string& coasting, const Matrix6d& covariance) const;
+
+  Rig rig_;
+  TrackerOptions options_;
+  AlignmentSettings alignment_;
+  const PointSelector* points_;
+  SlidingWindow window_;
+  PoseUncertainty uncertainty_;
+  Utime aligned_at_ = 0;  // us: newest keyframe whose events the map lay on
+};
+
+}  // namespace evit

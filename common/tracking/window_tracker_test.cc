@@ -1,0 +1,88 @@
+#include "common/tracking/window_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/helpers/tracking_bench.h"
+
+namespace evit {
+namespace {
+
+// Starts from a known state, with keyframes every 25 ms of a room that is in view as a whole.
+class WindowTrackerTest : public ::testing::Test {
+ protected:
+  WindowTrackerTest() {
+    points_.Add(source_.Ids(), source_.room, {});
+    source_.last = t_;
+    state_ = source_.motion.State(ToSeconds(t_));
+    state_.bias = source_.bias;
+  }
+  void Start() {
+    Matrix15d information = Matrix15d::Zero();
+    information.diagonal() << Vector6d::Constant(1e6), Eigen::Matrix<double, 9, 1>::Constant(1e4);
+    window_.Start(t_, state_, information);
+  }
+  WindowTracker::Result Step(const std::vector<Eigen::Vector3f>& seen_points) {
+    const KeyframeInput keyframe = source_.Next(t_ += 25'000, seen_points);
+    out_ = {};
+    return window_.Process(keyframe, keyframe.imu.back().gyro - source_.bias.gyro, &out_);
+  }
+
+  TrackerOptions options_ = TestOptions();
+  KeyframeSource source_;
+  PointSelector points_{TestRig(), source_.settings, options_.points, options_.lag_px};
+  WindowTracker window_{TestRig(), options_, source_.settings, &points_};
+  Utime t_ = 1'000'000;
+  BodyState state_;
+  TrackerOutput out_;
+};
+
+TEST_F(WindowTrackerTest, FollowsTheBody) {
+  Start();
+  for (int k = 0; k < 20; ++k) {
+    const WindowTracker::Result result = Step(source_.room);
+    ASSERT_EQ(result.failure, "");
+    ASSERT_EQ(result.coasting, "");
+    EXPECT_LT((window_.state().T_map_body.p - source_.Truth(t_).p).norm(), 0.006);
+  }
+  EXPECT_EQ(window_.nodes().size(), static_cast<std::size_t>(options_.window.size));
+  EXPECT_GT(out_.quality.contrast(), options_.failure.min_contrast);
+  EXPECT_GT(out_.covariance.diagonal().minCoeff(), 0);
+}
+
+TEST_F(WindowTrackerTest, CoastsWithoutEventsUntilItHasLastedTooLong) {
+  Start();
+  for (int k = 0; k < 5; ++k) Step(source_.room);
+  const double known = out_.covariance(0, 0);
+  const Utime begin = t_;
+  WindowTracker::Result result;
+  while (t_ < begin + 250'000) {
+    result = Step({});
+    ASSERT_EQ(result.failure, "");
+    EXPECT_EQ(result.coasting, "no events");
+  }
+  EXPECT_GT(out_.covariance(0, 0), known);
+  EXPECT_LT((window_.state().T_map_body.p - source_.Truth(t_).p).norm(), 0.05);
+  while (t_ < begin + 350'000) result = Step({});
+  EXPECT_EQ(result.failure.substr(0, 13), "no events for");
+  EXPECT_EQ(result.restart.T_map_body.p, window_.state().T_map_body.p);
+}
+
+TEST_F(WindowTrackerTest, EventsTheMapDoesNotLieOnDoNotPull) {
+  Start();
+  for (int k = 0; k < 5; ++k) Step(source_.room);
+  const WindowTracker::Result result = Step(synthetic::RoomPoints(60, 99));
+  EXPECT_EQ(result.coasting, "the map does not lie on the events");
+  EXPECT_LT((window_.state().T_map_body.p - source_.Truth(t_).p).norm(), 0.006);
+}
+
+TEST_F(WindowTrackerTest, RestartsFromThePredictionWithoutBiasesWhereTheStateIsImpossible) {
+  state_.velocity = {20, 0, 0};
+  Start();
+  const WindowTracker::Result result = Step({});
+  EXPECT_NE(result.failure.find("speed"), std::string::npos) << result.failure;
+  EXPECT_TRUE(result.restart.velocity.isZero(0));
+  EXPECT_TRUE(result.restart.bias.gyro.isZero(0));
+}
+
+}  // namespace
+}  // namespace evit
