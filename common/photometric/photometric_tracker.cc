@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/text/format_text.h"
 #include "common/tracking/pose_covariance.h"
-#include "common/tracking/text.h"
 
 namespace evit {
 namespace {
@@ -73,9 +73,10 @@ TrackerOutput PhotometricTracker::Process(const PhotometricFrame& frame) {
     if (solution.quality.n_points < kMinPoints) {
       Coast(frame, predicted, "nothing of the map in view has a gradient", &out);
     } else if (solution.quality.correlation < options_.photometric.min_correlation) {
-      Coast(frame, predicted,
-            Text("the map does not predict the events (correlation %.2f)", solution.quality.correlation),
-            &out);
+      Coast(
+          frame, predicted,
+          FormatText("the map does not predict the events (correlation %.2f)", solution.quality.correlation),
+          &out);
     } else {
       Accept(frame, after_events, solution, &out);
     }
@@ -118,7 +119,7 @@ void PhotometricTracker::Coast(const PhotometricFrame& frame, const SE3& predict
   }
   const double bad = ToSeconds(frame.t - good_time_);
   if (mode_ == TrackerMode::kLost || bad > options_.photometric.max_bad_s) {
-    if (mode_ != TrackerMode::kLost) reason_ = why + Text(" for %.1f s", bad);
+    if (mode_ != TrackerMode::kLost) reason_ = why + FormatText(" for %.1f s", bad);
     mode_ = TrackerMode::kLost;
     state_.velocity.setZero();
     rate_.setZero();

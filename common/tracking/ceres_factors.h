@@ -3,7 +3,7 @@
 #include <ceres/sized_cost_function.h>
 
 #include "common/tracking/event_alignment.h"
-#include "common/tracking/imu_factor.h"
+#include "common/tracking/imu_term.h"
 #include "common/tracking/prior.h"
 #include "common/tracking/state_matrices.h"
 

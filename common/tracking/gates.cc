@@ -1,6 +1,6 @@
 #include "common/tracking/gates.h"
 
-#include "common/tracking/text.h"
+#include "common/text/format_text.h"
 
 namespace evit {
 
@@ -17,11 +17,11 @@ bool WithinReach(const SE3& found, const SE3& predicted, const StartRange& range
 std::string WhatIsImpossible(const BodyState& state, const FailureOptions& limits) {
   // Written so that what is not a number is impossible too.
   if (!(state.velocity.norm() <= limits.max_speed)) {
-    return Text("speed of %.1f m/s is over the limit of %.1f", state.velocity.norm(), limits.max_speed);
+    return FormatText("speed of %.1f m/s is over the limit of %.1f", state.velocity.norm(), limits.max_speed);
   }
   if (!(state.bias.gyro.norm() <= limits.max_gyro_bias && state.bias.accel.norm() <= limits.max_accel_bias)) {
-    return Text("biases too large: gyro %.3f rad/s, accel %.2f m/s^2", state.bias.gyro.norm(),
-                state.bias.accel.norm());
+    return FormatText("biases too large: gyro %.3f rad/s, accel %.2f m/s^2", state.bias.gyro.norm(),
+                      state.bias.accel.norm());
   }
   return "";
 }

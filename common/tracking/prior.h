@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/tracking/event_alignment.h"
-#include "common/tracking/imu_factor.h"
+#include "common/tracking/imu_term.h"
 
 namespace evit {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/text/format_text.h"
 #include "common/tracking/image_speed.h"
-#include "common/tracking/text.h"
 
 namespace evit {
 namespace {
@@ -113,7 +113,7 @@ void Tracker::StartAcrossGap(const KeyframeInput& keyframe) {
   if (keyframe.t <= state_time_) {
     start.velocity.setZero();
     StartBootstrapping(start, TrackerMode::kBootstrapping,
-                       Text("the clock went back by %.0f ms: restarting from the last pose", -gap_ms));
+                       FormatText("the clock went back by %.0f ms: restarting from the last pose", -gap_ms));
     return;
   }
   const Utime unseen = keyframe.t - state_time_;
@@ -123,7 +123,7 @@ void Tracker::StartAcrossGap(const KeyframeInput& keyframe) {
     start.velocity.setZero();
   }
   StartBootstrapping(start, TrackerMode::kBootstrapping,
-                     Text("IMU gap of %.0f ms: restarting from the predicted pose", gap_ms));
+                     FormatText("IMU gap of %.0f ms: restarting from the predicted pose", gap_ms));
 }
 
 void Tracker::Bootstrap(const KeyframeInput& keyframe, bool follows, TrackerOutput* out) {

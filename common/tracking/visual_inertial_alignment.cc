@@ -4,8 +4,8 @@
 #include <ceres/solver.h>
 
 #include <algorithm>
-#include <cstdio>
 
+#include "common/text/format_text.h"
 #include "common/tracking/ceres_factors.h"
 #include "common/tracking/pose_manifold.h"
 
@@ -77,11 +77,8 @@ VisualInertialAlignment AlignVisualInertial(const std::vector<BootstrapFrame>& f
   for (const StateBlocks& b : blocks) result.states.push_back(FromBlocks(b));
   const ImuBias& bias = result.states.back().bias;
   if (bias.gyro.norm() > options.max_gyro_bias || bias.accel.norm() > options.max_accel_bias) {
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "biases too large: gyro %.3f rad/s, accel %.2f m/s^2; is the map's z axis up?",
-                  bias.gyro.norm(), bias.accel.norm());
-    result.reason = text;
+    result.reason = FormatText("biases too large: gyro %.3f rad/s, accel %.2f m/s^2; is the map's z axis up?",
+                               bias.gyro.norm(), bias.accel.norm());
     return result;
   }
   result.success = true;

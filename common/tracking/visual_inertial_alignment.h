@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "common/tracking/imu_factor.h"
+#include "common/tracking/imu_term.h"
 #include "common/tracking/tracker_options.h"
 
 namespace evit {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "common/imu/propagation.h"
+#include "common/text/format_text.h"
 #include "common/tracking/gates.h"
-#include "common/tracking/text.h"
 
 namespace evit {
 
@@ -121,7 +121,7 @@ std::string WindowTracker::WhyLost(const std::string& coasting, const Matrix6d& 
   const double coasted = ToSeconds(window_.nodes().back().t - aligned_at_);
   const double sigma = std::sqrt(covariance.topLeftCorner<3, 3>().diagonal().maxCoeff());
   if (coasted <= options_.failure.max_coast_s && sigma <= options_.failure.max_position_sigma_m) return "";
-  return coasting + Text(" for %.1f s, position known to %.2f m", coasted, sigma);
+  return coasting + FormatText(" for %.1f s, position known to %.2f m", coasted, sigma);
 }
 
 }  // namespace evit

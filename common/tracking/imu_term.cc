@@ -1,4 +1,4 @@
-#include "common/tracking/imu_factor.h"
+#include "common/tracking/imu_term.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>
