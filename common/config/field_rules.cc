@@ -2,6 +2,7 @@
 
 #include <google/protobuf/descriptor.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -41,6 +42,9 @@ std::string RangeText(const FieldOptions& o) {
 }  // namespace
 
 std::string NumberText(double value) {
+  const bool whole =
+      std::abs(value) < 1e15 && value == std::trunc(value) && !(value == 0 && std::signbit(value));
+  if (whole) return std::to_string(static_cast<std::int64_t>(value));
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
@@ -77,8 +81,8 @@ void CheckAllowed(const Setting& s) {
   }
   if (InRange(number, s.field->options())) return;
   const std::string allowed = AllowedText(s.field);
-  throw ConfigError(s.Place() + ": " + s.path + ": " + NumberText(number) + " is out of range; " +
-                    (allowed.empty() ? "a finite number" : allowed) + " is allowed");
+  throw ConfigError(s.Place() + ": " + s.path + ": " + NumberText(number) +
+                    " is out of range; allowed: " + (allowed.empty() ? "finite numbers" : allowed));
 }
 
 const FieldDescriptor* FindField(const google::protobuf::Descriptor* root, const std::string& path) {

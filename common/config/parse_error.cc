@@ -113,9 +113,15 @@ std::string ExplainUnknown(const Descriptor* root, const Key& key) {
 }
 
 std::string ExplainValue(const FieldDescriptor* field, std::string words) {
+  static const std::regex kOther("specified along with field \"([^\"]*)\"");
+  std::smatch match;
+  if (std::regex_search(words, match, kOther))
+    return "cannot be there beside " + match.str(1) + "; keep one of them";
+  if (words.find("specified multiple times") != std::string::npos) return "is there twice; keep one";
+  if (words.find("got: ") + 5 == words.size()) return "the file ends here, and a } is missing";
   while (!words.empty() && words.back() == '.') words.pop_back();
   const std::string allowed = field == nullptr ? "" : AllowedText(field);
-  return allowed.empty() ? words : words + "; " + allowed + " is allowed";
+  return allowed.empty() ? words : words + "; allowed: " + allowed;
 }
 
 }  // namespace

@@ -145,6 +145,11 @@ TEST_F(SettingsFile, WrongTypesAreNamedWithWhatIsAllowed) {
                     {"evit.motion_model", "PREVIOUS_POSE, CONSTANT_VELOCITY or IMU"});
 }
 
+TEST_F(SettingsFile, DoubleKeysAndMissingBracesAreNamed) {
+  ExpectTextRefused("points { seed: 3\n seed: 4 }", ":2:2", {"points.seed: is there twice"});
+  ExpectTextRefused("points {\n seed: 3\n", ":2:2", {"a } is missing"});
+}
+
 TEST_F(SettingsFile, ValuesOutOfRangeAreNamedWithTheirLine) {
   ExpectTextRefused("alignment {\n  image_sigma: 0\n}", ":2",
                     {"alignment.image_sigma", "above 0 grey levels"});
@@ -163,7 +168,7 @@ TEST_F(SettingsFile, ValuesAtOddsWithEachOtherAreNamedWithTheirPlaces) {
 }
 
 TEST_F(SettingsFile, TwoMethodsAreOneTooMany) {
-  ExpectTextRefused("evit { }\nevt { }", ":2:1", {"evt", "evit"});
+  ExpectTextRefused("evit { }\nevt { }", ":2:1", {"evt: cannot be there beside evit"});
 }
 
 TEST_F(SettingsFile, AFileThatIsNotThereIsNamed) {

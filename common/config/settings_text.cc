@@ -2,6 +2,9 @@
 
 #include <google/protobuf/descriptor.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "common/config/field_options.pb.h"
 #include "common/config/field_rules.h"
 #include "common/config/option_table.h"
@@ -23,20 +26,20 @@ std::string ValueText(const FieldDescriptor* field, const SettingValue& value) {
   return field->enum_type()->FindValueByNumber(static_cast<int>(whole))->name();
 }
 
-std::string HelpText(const FieldDescriptor* field) {
-  std::string text = field->options().GetExtension(config::help);
-  if (field->enum_type() == nullptr) return text;
-  for (int k = 0; k < field->enum_type()->value_count(); ++k) {
+// What each of an enum's values means, one text a value that says it.
+std::vector<std::string> Meanings(const FieldDescriptor* field) {
+  std::vector<std::string> texts;
+  for (int k = 0; field->enum_type() != nullptr && k < field->enum_type()->value_count(); ++k) {
     const auto* value = field->enum_type()->value(k);
     if (value->options().HasExtension(config::meaning))
-      text +=
-          (text.empty() ? "" : ". ") + value->name() + ": " + value->options().GetExtension(config::meaning);
+      texts.push_back(value->name() + ": " + value->options().GetExtension(config::meaning));
   }
-  return text;
+  return texts;
 }
 
 // What a value may be, or at least its unit.
 std::string RangeAndUnit(const FieldDescriptor* field) {
+  if (field->cpp_type() == FieldDescriptor::CPPTYPE_BOOL) return "";
   const std::string allowed = AllowedText(field);
   return allowed.empty() ? field->options().GetExtension(config::unit) : allowed;
 }
@@ -80,13 +83,15 @@ class Printer {
     std::string line = indent + field->name() + ": " + ValueText(field, value);
     if (loaded_ == nullptr) return line + "\n";
     line.resize(std::max(kCommentColumn, line.size() + 2), ' ');
-    const std::string range = RangeAndUnit(field), help = HelpText(field);
+    const std::string range = RangeAndUnit(field), help = field->options().GetExtension(config::help);
     line += "# " + range + (range.empty() || help.empty() ? "" : ": ") + help;
     const auto set = loaded_->set.find(path);
     line += set == loaded_->set.end()
                 ? " [default]"
                 : " [" + set->second.Place() + "; default " + ValueText(field, usual) + "]";
-    return line + "\n";
+    std::string above;
+    for (const std::string& meaning : Meanings(field)) above += indent + "# " + meaning + "\n";
+    return above + line + "\n";
   }
 
   PipelineOptions options_, defaults_;
@@ -108,8 +113,10 @@ void AppendTable(const Descriptor* type, const std::string& parent, const Pipeli
     const FieldDescriptor* field = type->field(k);
     if (field->message_type() != nullptr || field->options().deprecated() || parent.empty()) continue;
     const std::string path = parent + "." + field->name();
+    std::string help = field->options().GetExtension(config::help);
+    for (const std::string& meaning : Meanings(field)) help += ". " + meaning;
     rows += "| `" + field->name() + "` | `" + ValueText(field, GetOption(defaults, path)) + "` | " +
-            Cell(RangeAndUnit(field)) + " | " + Cell(HelpText(field)) + " |\n";
+            Cell(RangeAndUnit(field)) + " | " + Cell(help) + " |\n";
   }
   if (!rows.empty())
     *out += "\n### " + parent + "\n\n| key | default | allowed | meaning |\n|---|---|---|---|\n" + rows;

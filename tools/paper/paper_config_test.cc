@@ -47,7 +47,7 @@ TEST_F(PaperConfig, ShippedOneHasThePapersSequencesAndMethods) {
 TEST_F(PaperConfig, ErrorsNameFileAndKey) {
   ExpectError("seeds: 3", "seedz: 3", "seedz");
   ExpectError("seeds: 3", "", "seeds");
-  ExpectError("seeds: 3", "seeds: 0", "seeds: 0 is out of range; 1 to 99");
+  ExpectError("seeds: 3", "seeds: 0", "seeds: 0 is out of range; allowed: 1 to 99");
   ExpectError("simulated_s: 10", "simulated_s: 1", "simulated_s");
   ExpectError("id: \"evt100\"", "id: \"evt300\"", "\"evt300\" is there twice");
   ExpectError("id: \"evt100\"", "id: \"evt/100\"", "no file name");
