@@ -1,6 +1,7 @@
 #include "common/config/parse_error.h"
 
 #include <google/protobuf/descriptor.h>
+#include <google/protobuf/descriptor.pb.h>
 #include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
@@ -8,7 +9,6 @@
 #include <regex>
 #include <vector>
 
-#include "common/config/field_options.pb.h"
 #include "common/config/field_rules.h"
 
 namespace evit {
@@ -101,9 +101,6 @@ std::string ExplainUnknown(const Descriptor* root, const Key& key) {
   const FieldDescriptor* group = key.parent.empty() ? nullptr : FindField(root, key.parent);
   const Descriptor* type = group == nullptr ? root : group->message_type();
   if (type == nullptr) return "no such key";
-  for (const config::RemovedKey& removed : type->options().GetRepeatedExtension(config::removed)) {
-    if (removed.key() == key.name) return "was removed; " + removed.remedy();
-  }
   std::size_t best = 2 * std::max<std::size_t>(1, key.name.size() / 3) + 2;
   std::string near;
   FindNearest(root, "", key, &best, &near);

@@ -15,8 +15,8 @@ struct ParseFault {
   std::string words;
 };
 
-/// The same for people: "LINE:COLUMN: KEY: what is wrong; the remedy". Knows the keys of earlier versions,
-/// keys that are nearly right, and which values a key may have.
+/// The same for people: "LINE:COLUMN: KEY: what is wrong; the remedy". Knows which values a key may have, and
+/// keys that are nearly right.
 std::string Explain(const google::protobuf::Descriptor* root, const std::string& text,
                     const ParseFault& fault);
 

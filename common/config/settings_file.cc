@@ -28,8 +28,8 @@ int MethodOf(const std::string& path) {
   return found == std::end(kMethods) ? -1 : static_cast<int>(found - std::begin(kMethods));
 }
 
-// The paths where a key of the file stands today; none for a group of the earlier layout, or a key that has no
-// effect any more.
+// The paths where a key of the file stands today; none for a group of the earlier layout, or a key that has
+// no effect any more.
 std::vector<std::string> PathsNow(const Setting& s) {
   const auto* root = config::Settings::descriptor();
   // `method` names the group that is to be there.
@@ -63,7 +63,11 @@ std::vector<Setting> ReadOne(const std::string& path, std::vector<std::string>* 
       if (moved.field->message_type() != nullptr) moved.value = {};
       out.push_back(std::move(moved));
     }
-    if (paths.empty() && s.field->message_type() == nullptr) {
+    if (s.field->options().HasExtension(config::removed)) {
+      if (s.value != SettingValue(false)) {
+        throw ConfigError(s.Place() + ": " + s.path + ": was removed; " +
+                          s.field->options().GetExtension(config::removed));
+      }
       notes->push_back(s.Place() + ": " + s.path + " has no effect any more");
     }
     if (!paths.empty() && paths.front() != s.path) {

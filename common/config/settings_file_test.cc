@@ -11,6 +11,7 @@ namespace {
 
 using test::Edited;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 const std::string kConfig = EVIT_SOURCE_DIR "/config/";
@@ -133,6 +134,13 @@ TEST_F(SettingsFile, UnknownKeysAreNamedWithTheNearestOne) {
   ExpectTextRefused("surfaces { }", ":1:1", {"did you mean surface?"});
   ExpectTextRefused("evt { window { } }", ":1:7", {"evt.window", "did you mean evit.window?"});
   ExpectTextRefused("zzzzzzzzzz: 1", ":1:1", {"zzzzzzzzzz", "known here: base, keyframes"});
+}
+
+TEST_F(SettingsFile, RemovedKeysSayWhatToDo) {
+  ExpectTextRefused("surface {\n  split_polarity: true\n}", ":2",
+                    {"surface.split_polarity: was removed", "delete the line"});
+  EXPECT_THAT(LoadSettings(Write("a.textproto", "surface { split_polarity: false }")).notes,
+              ElementsAre(HasSubstr("split_polarity has no effect any more")));
 }
 
 TEST_F(SettingsFile, WrongTypesAreNamedWithWhatIsAllowed) {
