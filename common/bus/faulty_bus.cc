@@ -132,7 +132,7 @@ double Number(const std::string& part, const std::string& digits, double most) {
   const double value = std::strtod(digits.c_str(), &end);
   if (digits.empty() || *end != '\0' || !(value >= 0 && value <= most)) {
     throw std::invalid_argument("bus faults: \"" + part + "\": a number from 0 to " + std::to_string(most) +
-                                " is wanted");
+                                " is expected");
   }
   return value;
 }
@@ -148,8 +148,9 @@ BusFaults ParseBusFaults(const std::string& text) {
     }
     const auto colon = part.find(':');
     if (colon == std::string::npos || colon == 0) {
-      throw std::invalid_argument("bus faults: \"" + part +
-                                  "\": CHANNEL:loss=SHARE,duplicate=SHARE,reorder=SHARE,delay=MS is wanted");
+      throw std::invalid_argument(
+          "bus faults: \"" + part +
+          "\": CHANNEL:loss=SHARE,duplicate=SHARE,reorder=SHARE,delay=MS is expected");
     }
     BusFaults::Rule rule;
     rule.channel = part.substr(0, colon);
@@ -167,7 +168,7 @@ BusFaults ParseBusFaults(const std::string& text) {
         rule.delay_ms = static_cast<int>(Number(fault, value, 60'000));
       } else {
         throw std::invalid_argument("bus faults: \"" + fault +
-                                    "\": loss, duplicate, reorder or delay is wanted");
+                                    "\": loss, duplicate, reorder or delay is expected");
       }
     }
     faults.rules.push_back(rule);

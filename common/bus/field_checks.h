@@ -27,11 +27,11 @@ class FieldChecks {
   template <typename Message>
   FieldChecks& Stamp(const Message& m) {
     // The upper bound leaves room for arithmetic on numbers a forger chose.
-    return Time("utime", m.utime).That(m.seq >= 0 && m.seq < kMaxSequence, "seq is no message number");
+    return Time("utime", m.utime).That(m.seq >= 0 && m.seq < kMaxSequence, "seq is out of range");
   }
 
   FieldChecks& Time(const char* name, std::int64_t utime) {
-    return Named(name, utime >= -kMaxTime && utime <= kMaxTime, " is no time");
+    return Named(name, utime >= -kMaxTime && utime <= kMaxTime, " is out of range");
   }
 
   template <typename Number>
@@ -57,7 +57,7 @@ class FieldChecks {
 
   FieldChecks& Unit(const char* name, const double (&q)[4]) {
     const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    return Named(name, std::abs(norm - 1.0) <= 1e-3, " is no unit quaternion");  // false for NaN
+    return Named(name, std::abs(norm - 1.0) <= 1e-3, " is not a unit quaternion");  // false for NaN
   }
 
   FieldChecks& Increasing(const char* name, const std::vector<std::int64_t>& times) {

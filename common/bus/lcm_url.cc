@@ -57,7 +57,7 @@ LcmUrl ParseLcmUrl(const std::string& url) {
   in_addr group{};
   if (::inet_pton(AF_INET, result.group.c_str(), &group) != 1 || !IN_MULTICAST(ntohl(group.s_addr))) {
     throw std::runtime_error("LCM URL \"" + url + "\": \"" + result.group +
-                             "\" is no IPv4 multicast address (224.0.0.0 to 239.255.255.255)");
+                             "\" is not an IPv4 multicast address (224.0.0.0 to 239.255.255.255)");
   }
   const std::size_t key = rest.find(kBufferKey);
   if (key != std::string::npos) {

@@ -12,7 +12,7 @@ struct LcmUrl {
   int receive_buffer = 0;  // bytes asked for in the URL; 0: none
 };
 
-/// Throws std::runtime_error, naming the part, where a udpm URL is malformed or the group is no multicast
+/// Throws std::runtime_error, naming the part, where a udpm URL is malformed or the group is not a multicast
 /// address.
 LcmUrl ParseLcmUrl(const std::string& url);
 

@@ -49,9 +49,9 @@ void LogReader::BuildIndex(std::int64_t file_size) {
   std::array<std::uint8_t, kHeader + kMaxChannelName> head{};
   while (position + kHeader <= file_size) {
     // The file is read at this one place, so a plain seek per message is enough: headers are 50 kB apart.
-    const auto wanted = static_cast<std::size_t>(std::min<std::int64_t>(head.size(), file_size - position));
+    const auto expected = static_cast<std::size_t>(std::min<std::int64_t>(head.size(), file_size - position));
     if (::fseeko(file_.get(), position, SEEK_SET) != 0 ||
-        std::fread(head.data(), 1, wanted, file_.get()) != wanted) {
+        std::fread(head.data(), 1, expected, file_.get()) != expected) {
       throw std::runtime_error("cannot read log " + path_ + ": " + std::strerror(errno));
     }
     const auto name_size = static_cast<std::uint32_t>(GetBigEndian(&head[20], 4));

@@ -106,7 +106,7 @@ bool Validate(const map_points_t& m, std::string* why) {
       .Stamp(m)
       .That(m.query_seq >= 0, "query_seq is negative")
       .That(m.map_size >= 0, "map_size is negative")
-      .That(m.n <= m.n_visible && m.n_visible <= m.map_size, "n, n_visible and map_size do not go together")
+      .That(m.n <= m.n_visible && m.n_visible <= m.map_size, "n <= n_visible <= map_size does not hold")
       .That(in_map, "an id is outside the map")
       .Finite("xyz", m.xyz)
       .ok();
@@ -121,7 +121,8 @@ bool Validate(const map_query_t& m, std::string* why) {
       .That(m.margin_px >= 0, "margin_px is negative")
       .Finite("min_depth", m.min_depth)
       .Finite("max_depth", m.max_depth)
-      .That(m.min_depth >= 0 && m.min_depth < m.max_depth, "min_depth..max_depth is no range")
+      .That(m.min_depth >= 0 && m.min_depth < m.max_depth,
+            "min_depth is not below max_depth, or out of range")
       .That(m.occlusion == 0 || m.occlusion == 1, "occlusion is neither 0 nor 1")
       .That(m.max_points >= 0 && m.max_points <= kMaxMapPoints, "max_points is out of range")
       .ok();
@@ -189,7 +190,7 @@ bool Validate(const view_query_t& m, std::string* why) {
   return check.That(straight, "camera.distortion is not 0")
       .Finite("min_depth", m.min_depth)
       .Finite("max_depth", m.max_depth)
-      .That(m.min_depth > 0 && m.min_depth < m.max_depth, "min_depth..max_depth is no range")
+      .That(m.min_depth > 0 && m.min_depth < m.max_depth, "min_depth is not below max_depth, or out of range")
       .ok();
 }
 

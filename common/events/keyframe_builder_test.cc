@@ -180,7 +180,7 @@ TEST(KeyframeBuilder, BadDataIsCountedAndDropped) {
   ExpectSame(good, run(true));
 }
 
-TEST(KeyframeBuilder, ClockSetBackBeginsAnew) {
+TEST(KeyframeBuilder, AClockSetBackRestartsTheStreams) {
   KeyframeBuilder builder(SmallRig(), SmallOptions(), false);
   builder.SetFeedbackFor(-1, Tracking(150));
   std::int64_t seq = -1;
@@ -203,7 +203,7 @@ TEST(KeyframeBuilder, ClockSetBackBeginsAnew) {
   EXPECT_GE(builder.counters().resets, 1);
 }
 
-TEST(KeyframeBuilder, RealTimeGoesOnWithoutEventsThatAreLate) {
+TEST(KeyframeBuilder, RealTimeContinuesWithoutEventsThatAreLate) {
   KeyframeBuilder builder(SmallRig(), SmallOptions(), false);
   const EventArray events = RandomStream(0, 100'000, 40'000, 3);
   builder.AddEvents(events, events.t.back());

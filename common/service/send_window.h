@@ -30,7 +30,7 @@ class SendWindow {
     kTaken,
     kNotAwaited,  // from a consumer nobody waits for
     kImpossible,  // acknowledges what was never sent
-    kRestarted,   // the consumer started anew and lacks what it had: begin a new stream at
+    kRestarted,   // the consumer restarted and lacks what it had: begin a new stream at
                   // first_unacknowledged()
   };
 

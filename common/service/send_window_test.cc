@@ -149,13 +149,13 @@ TEST_F(SendWindowTest, EverythingArrivesWhateverIsLost) {
     SendWindow window({"a"}, 1000, 200);
     window.Restart(kEpoch);
     const int n = 500;
-    std::int64_t next_sent = 0, next_wanted = 0, now = 0;
+    std::int64_t next_sent = 0, next_expected = 0, now = 0;
     int transmissions = 0;
     const auto transmit = [&](std::int64_t seq) {
       const bool lost = ++transmissions % every == 0;
-      if (!lost && seq == next_wanted) ++next_wanted;
+      if (!lost && seq == next_expected) ++next_expected;
     };
-    while (next_wanted < n || !window.all_acknowledged()) {
+    while (next_expected < n || !window.all_acknowledged()) {
       now += 10;
       ASSERT_LT(now, 10'000'000) << "stuck with every " << every << "th lost";
       window.CheckTimeout(now);
@@ -169,7 +169,7 @@ TEST_F(SendWindowTest, EverythingArrivesWhateverIsLost) {
         window.Sent({SendWindow::kEvents, next_sent++, 100, 0}, now);
       }
       ASSERT_LE(window.bytes_under_way(), 1000);
-      if (now % 50 == 0) window.OnCredit(Credit("a", next_wanted, 0), now);
+      if (now % 50 == 0) window.OnCredit(Credit("a", next_expected, 0), now);
     }
   }
 }

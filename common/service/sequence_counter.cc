@@ -9,14 +9,14 @@ SequenceCounter::SequenceCounter(StatusReporter* status, const std::string& chan
       restarts_(&status->Counter(channel + ".restarts")),
       invalid_(&status->Counter(channel + ".invalid")) {}
 
-SequenceCounter::Verdict SequenceCounter::Look(std::int64_t epoch, std::int64_t seq) const {
+SequenceCounter::Verdict SequenceCounter::Classify(std::int64_t epoch, std::int64_t seq) const {
   if (!heard_ || epoch != epoch_) return Verdict::kNewEpoch;
   if (seq == next_) return Verdict::kNext;
   return seq > next_ ? Verdict::kGap : Verdict::kOld;
 }
 
-SequenceCounter::Verdict SequenceCounter::Accept(std::int64_t epoch, std::int64_t seq) {
-  const Verdict verdict = Look(epoch, seq);
+SequenceCounter::Verdict SequenceCounter::Commit(std::int64_t epoch, std::int64_t seq) {
+  const Verdict verdict = Classify(epoch, seq);
   switch (verdict) {
     case Verdict::kOld:
       ++*duplicate_;

@@ -17,12 +17,12 @@ class SequenceCounter {
     kNext,      // exactly the next message
     kGap,       // later than the next: some were lost (or overtaken)
     kOld,       // seen before, or overtaken
-    kNewEpoch,  // the sender started anew: all state that came from it is stale
+    kNewEpoch,  // the sender restarted: all state that came from it is stale
   };
-  /// Looks only; next() and epoch() stay as they are.
-  Verdict Look(std::int64_t epoch, std::int64_t seq) const;
-  /// Looks, counts, and moves on unless the message is old.
-  Verdict Accept(std::int64_t epoch, std::int64_t seq);
+  /// Where the message stands in its stream; changes nothing.
+  Verdict Classify(std::int64_t epoch, std::int64_t seq) const;
+  /// Classifies and counts the message, which is the newest from here on unless it is old.
+  Verdict Commit(std::int64_t epoch, std::int64_t seq);
   /// Counts a message that could not be decoded.
   void CountInvalid();
 

@@ -61,14 +61,14 @@ TEST_F(ServiceTest, SequenceCounterTellsGapsDuplicatesAndRestarts) {
   using Verdict = SequenceCounter::Verdict;
   StatusReporter reporter(bus_.get(), channels_, "x", 1);
   SequenceCounter counter(&reporter, "IMU");
-  EXPECT_EQ(counter.Accept(5, 3), Verdict::kNewEpoch);  // joined late: nothing counts as lost
-  EXPECT_EQ(counter.Look(5, 4), Verdict::kNext);
-  EXPECT_EQ(counter.Accept(5, 4), Verdict::kNext);
-  EXPECT_EQ(counter.Accept(5, 4), Verdict::kOld);
-  EXPECT_EQ(counter.Accept(5, 8), Verdict::kGap);
-  EXPECT_EQ(counter.Accept(5, 6), Verdict::kOld);
+  EXPECT_EQ(counter.Commit(5, 3), Verdict::kNewEpoch);  // joined late: nothing counts as lost
+  EXPECT_EQ(counter.Classify(5, 4), Verdict::kNext);
+  EXPECT_EQ(counter.Commit(5, 4), Verdict::kNext);
+  EXPECT_EQ(counter.Commit(5, 4), Verdict::kOld);
+  EXPECT_EQ(counter.Commit(5, 8), Verdict::kGap);
+  EXPECT_EQ(counter.Commit(5, 6), Verdict::kOld);
   EXPECT_EQ(counter.next(), 9);
-  EXPECT_EQ(counter.Accept(4, 0), Verdict::kNewEpoch);
+  EXPECT_EQ(counter.Commit(4, 0), Verdict::kNewEpoch);
   counter.CountInvalid();
   EXPECT_EQ(reporter.Counter("IMU.received"), 4);
   EXPECT_EQ(reporter.Counter("IMU.lost"), 3);

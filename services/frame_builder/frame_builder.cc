@@ -120,10 +120,10 @@ void FrameBuilder::Send(Keyframe keyframe) {
   status_.AddTiming("encode", Milliseconds(moved_ - begin));
   last_sent_ = sent.seq;
   recent_.push_back(std::move(sent));
-  if (wanted_.empty()) {
+  if (to_send_.empty()) {
     Publish(&recent_.back());
   } else {
-    wanted_.push_back(last_sent_);  // behind those that are sent again: it would leave a hole before it
+    to_send_.push_back(last_sent_);  // behind those that are sent again: it would leave a hole before it
   }
   status_.Counter("last_keyframe_seq") = last_sent_;
 }
@@ -140,7 +140,7 @@ void FrameBuilder::OnMode(const std::uint8_t* data, std::size_t size) {
     modes_.CountInvalid();
     return;
   }
-  if (modes_.Accept(message.epoch, message.seq) == SequenceCounter::Verdict::kOld) return;
+  if (modes_.Commit(message.epoch, message.seq) == SequenceCounter::Verdict::kOld) return;
   // Before its first keyframe the tracker speaks of none, after our restart of an earlier run's.
   const bool ours = message.keyframe_epoch == status_.epoch() && message.keyframe_seq >= 0 &&
                     message.keyframe_seq <= last_sent_;
@@ -150,9 +150,9 @@ void FrameBuilder::OnMode(const std::uint8_t* data, std::size_t size) {
     builder_.SetFeedbackFor(-1, ToFeedback(message));
     return;
   }
-  if (!settings_.lossless && message.resend != 0 && wanted_.empty()) {
+  if (!settings_.lossless && message.resend != 0 && to_send_.empty()) {
     for (const Sent& sent : recent_) {
-      if (sent.seq > message.keyframe_seq) wanted_.push_back(sent.seq);
+      if (sent.seq > message.keyframe_seq) to_send_.push_back(sent.seq);
     }
   }
   if (message.keyframe_seq > last_answered_) {
@@ -186,10 +186,10 @@ void FrameBuilder::SendAgain() {
 // Few at each call: all at once would not fit the receive buffer.
 void FrameBuilder::SendHeld() {
   constexpr std::size_t kLongQueue = 8;
-  int n = wanted_.size() > kLongQueue ? 4 : 1;
-  while (n > 0 && !wanted_.empty()) {
-    const std::int64_t seq = wanted_.front();
-    wanted_.pop_front();
+  int n = to_send_.size() > kLongQueue ? 4 : 1;
+  while (n > 0 && !to_send_.empty()) {
+    const std::int64_t seq = to_send_.front();
+    to_send_.pop_front();
     for (Sent& sent : recent_) {  // it may not be held any more
       if (sent.seq != seq) continue;
       Publish(&sent);

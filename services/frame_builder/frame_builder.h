@@ -68,8 +68,8 @@ class FrameBuilder : public Service {
   KeyframeBuilder builder_;
   EventArray events_;
 
-  std::deque<Sent> recent_;          // keyframes without an answer; real time: the newest ones
-  std::deque<std::int64_t> wanted_;  // numbers of those to send next, first what a restarted optimiser lacks
+  std::deque<Sent> recent_;           // keyframes without an answer; real time: the newest ones
+  std::deque<std::int64_t> to_send_;  // numbers of those to send next, first what a restarted optimiser lacks
   std::int64_t last_sent_ = -1, last_answered_ = -1;
   Clock::time_point moved_ = Clock::now();  // last keyframe sent, or answer heard
   Clock::time_point sent_again_;

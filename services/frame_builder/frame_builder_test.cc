@@ -133,7 +133,7 @@ TEST_F(FrameBuilderTest, MissingAnswerHoldsTheCreditBack) {
   EXPECT_EQ(tracker_.state, "drained");
 }
 
-TEST_F(FrameBuilderTest, ASecondReplayStartsAnew) {
+TEST_F(FrameBuilderTest, ASecondReplayRestartsTheStream) {
   Start(true);
   test::Sender first(peer_bus_.get(), MakeRecording(300, 300'000), 77);
   Replay(&first, 1);

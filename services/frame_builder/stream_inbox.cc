@@ -9,24 +9,24 @@ StreamInbox::StreamInbox(StatusReporter* status, bool lossless)
     : status_(status), lossless_(lossless), events_(status, "EVENTS"), imu_(status, "IMU") {}
 
 StreamInbox::Verdict StreamInbox::Put(event_packet_t message, std::size_t bytes) {
-  return Let(std::move(message), bytes, &events_);
+  return Admit(std::move(message), bytes, &events_);
 }
 
 StreamInbox::Verdict StreamInbox::Put(imu_batch_t message, std::size_t bytes) {
-  return Let(std::move(message), bytes, &imu_);
+  return Admit(std::move(message), bytes, &imu_);
 }
 
 template <typename M>
-StreamInbox::Verdict StreamInbox::Let(M message, std::size_t bytes, SequenceCounter* counter) {
+StreamInbox::Verdict StreamInbox::Admit(M message, std::size_t bytes, SequenceCounter* counter) {
   using Seen = SequenceCounter::Verdict;
-  const Seen seen = counter->Look(message.epoch, message.seq);
+  const Seen seen = counter->Classify(message.epoch, message.seq);
   if (lossless_) {
     const bool first_of_run = seen == Seen::kNewEpoch && message.seq == 0;
     const bool next = seen != Seen::kNewEpoch && message.epoch == epoch_ && seen != Seen::kGap;
     if (!first_of_run && !next) return Verdict::kRefused;  // it comes again, after what is missing
   }
   const bool first_heard = counter->epoch() == -1;
-  counter->Accept(message.epoch, message.seq);
+  counter->Commit(message.epoch, message.seq);
   if (seen == Seen::kOld) return Verdict::kRefused;
   // The other stream may have told of the new run already. Events and IMU of live sensors have an epoch each.
   const bool is_new =

@@ -15,7 +15,7 @@ namespace evit {
 /// Arrived messages of the two recorded streams in the order they are to be used, and what of them has been
 /// taken out: lossless replay is told the latter (CREDIT), so data that waits here holds it back.
 ///
-/// Lossless: exactly the next message of each stream is let in. Real time: whatever is not old.
+/// Lossless: exactly the next message of each stream is admitted. Real time: whatever is not old.
 class StreamInbox {
  public:
   using Message = std::variant<event_packet_t, imu_batch_t>;
@@ -47,7 +47,7 @@ class StreamInbox {
 
  private:
   template <typename M>
-  Verdict Let(M message, std::size_t bytes, SequenceCounter* counter);
+  Verdict Admit(M message, std::size_t bytes, SequenceCounter* counter);
 
   StatusReporter* status_;
   bool lossless_;

@@ -132,7 +132,7 @@ void LogReplay::OnControl(const std::uint8_t* data, std::size_t size) {
     control_counter_.CountInvalid();
     return;
   }
-  if (control_counter_.Accept(order.epoch, order.seq) == SequenceCounter::Verdict::kOld) return;
+  if (control_counter_.Commit(order.epoch, order.seq) == SequenceCounter::Verdict::kOld) return;
   switch (order.command) {
     case replay_control_t::PAUSE:
       SetPaused(true);

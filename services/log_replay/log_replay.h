@@ -32,7 +32,7 @@ struct LogReplayOptions {
   std::optional<std::int64_t> from_utime;            // us: start here
   std::optional<std::pair<double, double>> seconds;  // s after the log's first message: from, to
   bool exit_at_end = false;
-  std::string position;  // file; real time only: a successor goes on from where this one died. Empty: none
+  std::string position;  // file; real time only: a successor continues where this one died. Empty: none
   std::int64_t resend_us = 200'000;  // without progress for this long, what is under way is sent again
 };
 

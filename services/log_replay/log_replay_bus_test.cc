@@ -93,7 +93,7 @@ class Consumer {
         credit_.Ask();
         return;
       }
-      counter->Accept(message.epoch, message.seq);
+      counter->Commit(message.epoch, message.seq);
       if (to == reinterpret_cast<void*>(&events)) arrivals.push_back(Clock::now());
       to->push_back(message);
       if (work.count() > 0) std::this_thread::sleep_for(work);
@@ -191,7 +191,7 @@ TEST_F(LogReplayBusTest, KeepsTimeInRealTime) {
   EXPECT_LT(std::abs(late_ms[50]), 20.0);  // a busy machine; alone it is well below 1 ms
   EXPECT_GT(late_ms[0], -200.0);
   EXPECT_LT(late_ms[99], 200.0);
-  // STREAM_END goes on.
+  // STREAM_END continues.
   EXPECT_TRUE(consumer.PollUntil([&] { return consumer.ends.size() >= 3; }));
 }
 

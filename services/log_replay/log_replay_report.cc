@@ -74,7 +74,7 @@ void LogReplay::Report(std::int64_t now_us) {
 }
 
 void LogReplay::Stop() {
-  // Played to its end, it begins anew next time; stopped or killed before, it goes on.
+  // Played to its end, it starts over next time; stopped or killed before, it continues.
   if (position_ && phase_ == Phase::kEnded) position_->Clear();
   status_.SetState("finished", options_.log + ": stopped");
   status_.Publish();

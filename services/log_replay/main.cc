@@ -47,7 +47,7 @@ int Run(int argc, char** argv) {
   auto* from = app.add_option("--from", options.from_utime, "start at this sensor time, us");
   app.add_option("--seconds", seconds, "part to replay, A:B, s after the first message")->excludes(from);
   app.add_option("--position", options.position,
-                 "file that keeps the position: started again, the replay goes on there (real time only)");
+                 "file that keeps the position: started again, the replay continues there (real time only)");
   app.add_flag("--exit-at-end", options.exit_at_end, "end when all is sent (with --lossless: consumed)");
   evit::AddServiceOptions(&app, &service_options);
   CLI11_PARSE(app, argc, argv);

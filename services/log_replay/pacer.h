@@ -15,7 +15,8 @@ class Pacer {
     wall0_ = now_us;
     data0_ = data_us;
   }
-  /// Changes speed without a jump; data time goes on from where it is (from `data_us` where it was unpaced).
+  /// Changes speed without a jump; data time continues from where it is (from `data_us` where it was
+  /// unpaced).
   void SetSpeed(double speed, std::int64_t now_us, std::int64_t data_us) {
     Start(now_us, speed_ > 0 ? DataTime(now_us) : data_us);
     speed_ = speed;

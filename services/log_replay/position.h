@@ -5,7 +5,7 @@
 
 namespace evit {
 
-/// Where a replay is: what its successor needs to go on as the very same stream.
+/// Where a replay is: what its successor needs to continue as the very same stream.
 struct ReplayPosition {
   std::int64_t next = 0;                             // message of the recording
   std::int64_t epoch = 0;                            // of the stream

@@ -43,18 +43,18 @@ Recording::Recording(const std::string& path, const std::string& prefix, bool al
   }
 }
 
-std::string Recording::FindPrefix(const std::string& wanted) const {
+std::string Recording::FindPrefix(const std::string& prefix) const {
   const std::vector<std::string>& names = log_.channels();
   const std::string events = Channels().events;
-  if (std::find(names.begin(), names.end(), wanted + events) != names.end()) return wanted;
+  if (std::find(names.begin(), names.end(), prefix + events) != names.end()) return prefix;
   std::vector<std::string> candidates;
   std::copy_if(names.begin(), names.end(), std::back_inserter(candidates),
                [&events](const std::string& name) { return EndsWith(name, events); });
-  if (wanted.empty() && candidates.size() == 1) {
+  if (prefix.empty() && candidates.size() == 1) {
     return candidates[0].substr(0, candidates[0].size() - events.size());
   }
   throw std::runtime_error(
-      "log " + path_ + " has no channel " + wanted + events + " (it has: " + Join(names) + "); " +
+      "log " + path_ + " has no channel " + prefix + events + " (it has: " + Join(names) + "); " +
       (candidates.empty() ? "make a log with `evit import`" : "choose one with --log-prefix"));
 }
 

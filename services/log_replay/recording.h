@@ -46,7 +46,7 @@ class Recording {
     LogEntry entry;
     Kind kind;
   };
-  std::string FindPrefix(const std::string& wanted) const;
+  std::string FindPrefix(const std::string& prefix) const;
 
   std::string path_;
   LogReader log_;

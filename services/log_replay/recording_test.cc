@@ -73,7 +73,7 @@ TEST(Pacer, MapsDataTimeToWallTime) {
   EXPECT_EQ(pacer.Until(53'000, 2000), 2000);
   pacer.SetSpeed(0, 2000, 0);
   EXPECT_EQ(pacer.Until(1'000'000'000, 2000), 0);
-  pacer.SetSpeed(1, 3000, 60'000);  // from unpaced: goes on where the data are
+  pacer.SetSpeed(1, 3000, 60'000);  // from unpaced: continues where the data are
   EXPECT_EQ(pacer.Until(60'500, 3000), 500);
 }
 

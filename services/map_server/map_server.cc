@@ -38,7 +38,7 @@ void MapServer::OnQuery(const std::uint8_t* data, std::size_t size) {
     return;
   }
   // A query sent again is answered again: its first answer may have been lost.
-  queries_.Accept(message.epoch, message.seq);
+  queries_.Commit(message.epoch, message.seq);
   if (queue_.size() == kMaxQueued) {
     queue_.pop_front();
     ++*dropped_;

@@ -34,7 +34,7 @@ void ViewServer::OnQuery(const std::uint8_t* data, std::size_t size) {
     queries_.CountInvalid();
     return;
   }
-  queries_.Accept(message.epoch, message.seq);
+  queries_.Commit(message.epoch, message.seq);
   const std::pair<std::int64_t, std::int64_t> number(message.epoch, message.seq);
   // Sent again because a view takes long: it is drawn once, and its answer is sent again where that may have
   // been lost.

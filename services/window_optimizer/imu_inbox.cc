@@ -11,7 +11,7 @@ std::vector<ImuSample> ImuInbox::OnMessage(const std::uint8_t* data, std::size_t
     counter_.CountInvalid();
     return {};
   }
-  if (counter_.Accept(message.epoch, message.seq) == SequenceCounter::Verdict::kNewEpoch) history_.Clear();
+  if (counter_.Commit(message.epoch, message.seq) == SequenceCounter::Verdict::kNewEpoch) history_.Clear();
   std::vector<ImuSample> samples;
   for (const ImuSample& sample : SamplesOf(message)) {
     if (history_.Add(sample)) samples.push_back(sample);

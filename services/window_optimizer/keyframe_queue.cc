@@ -20,7 +20,7 @@ KeyframeQueue::KeyframeQueue(StatusReporter* status, const Options& options)
 // A new sender starts with number 0. Where this service is the newer one, the sender is further on already,
 // and what it sends twice is the oldest keyframe it has no answer for.
 bool KeyframeQueue::IsNext(const keyframe_t& keyframe) const {
-  switch (counter_.Look(keyframe.epoch, keyframe.seq)) {
+  switch (counter_.Classify(keyframe.epoch, keyframe.seq)) {
     case SequenceCounter::Verdict::kGap:
       return false;
     case SequenceCounter::Verdict::kNewEpoch:
@@ -32,12 +32,12 @@ bool KeyframeQueue::IsNext(const keyframe_t& keyframe) const {
 
 KeyframeQueue::Admission KeyframeQueue::Admit(keyframe_t keyframe, Clock::time_point now) {
   if (options_.lossless && !IsNext(keyframe)) {
-    if (counter_.Look(keyframe.epoch, keyframe.seq) == SequenceCounter::Verdict::kNewEpoch)
+    if (counter_.Classify(keyframe.epoch, keyframe.seq) == SequenceCounter::Verdict::kNewEpoch)
       rejected_ = NumberOf(keyframe);
     ++status_->Counter("KEYFRAME.out_of_order");
     return Admission::kOutOfOrder;
   }
-  const SequenceCounter::Verdict verdict = counter_.Accept(keyframe.epoch, keyframe.seq);
+  const SequenceCounter::Verdict verdict = counter_.Commit(keyframe.epoch, keyframe.seq);
   if (verdict == SequenceCounter::Verdict::kOld) return Admission::kOld;
   if (verdict == SequenceCounter::Verdict::kNewEpoch) burst_until_ = -1;
   Push(std::move(keyframe), now);
@@ -46,7 +46,7 @@ KeyframeQueue::Admission KeyframeQueue::Admit(keyframe_t keyframe, Clock::time_p
 
 void KeyframeQueue::AdmitCollected(std::vector<keyframe_t> keyframes, Clock::time_point now) {
   for (keyframe_t& keyframe : keyframes) {
-    counter_.Accept(keyframe.epoch, keyframe.seq);
+    counter_.Commit(keyframe.epoch, keyframe.seq);
     Push(std::move(keyframe), now);
   }
 }

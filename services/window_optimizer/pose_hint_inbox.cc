@@ -13,7 +13,7 @@ void PoseHintInbox::OnMessage(const std::uint8_t* data, std::size_t size) {
     counter_.CountInvalid();
     return;
   }
-  if (counter_.Accept(message.epoch, message.seq) == SequenceCounter::Verdict::kOld) return;
+  if (counter_.Commit(message.epoch, message.seq) == SequenceCounter::Verdict::kOld) return;
   hint_ = PoseOf(message);
 }
 
