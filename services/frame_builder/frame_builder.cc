@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "common/bus/codec.h"
-#include "common/time/milliseconds.h"
 #include "common/wire/event_wire.h"
 #include "common/wire/imu_wire.h"
 #include "common/wire/keyframe_wire.h"
@@ -12,7 +11,6 @@
 namespace evit {
 namespace {
 
-constexpr std::size_t kRecent = 32;                  // keyframes
 constexpr auto kPatience = std::chrono::seconds(2);  // before the missing answer is complained of
 
 }  // namespace
@@ -24,7 +22,8 @@ FrameBuilder::FrameBuilder(Bus* bus, const Channels& channels, const Settings& s
       status_(bus, channels, "frame_builder", NewEpoch()),
       modes_(&status_, "TRACKER_MODE"),
       inbox_(&status_, settings.lossless),
-      builder_(settings.rig, settings.keyframes, settings.lossless) {
+      builder_(settings.rig, settings.keyframes, settings.lossless),
+      outbox_(bus, channels.keyframe, &status_, settings.lossless, settings.send_again) {
   const auto on = [&](const std::string& channel, auto method) {
     bus_->Subscribe(channel, [this, method](const std::string&, const std::uint8_t* data, std::size_t size) {
       (this->*method)(data, size);
@@ -35,7 +34,6 @@ FrameBuilder::FrameBuilder(Bus* bus, const Channels& channels, const Settings& s
   on(channels_.tracker_mode, &FrameBuilder::OnMode);
   on(channels_.stream_end, &FrameBuilder::OnEnd);
   if (settings_.lossless) credit_.emplace(bus_, channels_, "frame_builder", status_.epoch());
-  status_.Counter("last_keyframe_seq") = -1;
   status_.SetState("waiting", "waiting for events and IMU samples");
 }
 
@@ -90,14 +88,15 @@ void FrameBuilder::Work() {
 
 void FrameBuilder::ReportState() {
   const std::int64_t awaited = builder_.awaited_feedback();
-  if (awaited >= 0 && Clock::now() - moved_ > kPatience) {
+  if (awaited >= 0 && std::chrono::steady_clock::now() - outbox_.moved() > kPatience) {
     status_.SetState("waiting", "window_optimizer does not answer keyframe " + std::to_string(awaited) +
                                     ": is it running, --lossless, on the same URL and prefix?");
   } else if (flushed_ && awaited < 0) {
     if (status_.state() == "drained") return;
     ReportCounters();
-    status_.SetState("drained", "the streams have ended; last keyframe " + std::to_string(last_sent_));
-  } else if (inbox_.epoch() != -1 && last_sent_ < 0) {
+    status_.SetState("drained",
+                     "the streams have ended; last keyframe " + std::to_string(outbox_.last_sent()));
+  } else if (inbox_.epoch() != -1 && outbox_.last_sent() < 0) {
     status_.SetState("running", "filling the surface with events");
   } else if (inbox_.epoch() != -1) {
     status_.SetState("running", "making keyframes");
@@ -107,31 +106,7 @@ void FrameBuilder::ReportState() {
 void FrameBuilder::Send(Keyframe keyframe) {
   status_.AddTiming("update", keyframe.update_ms);
   status_.AddTiming("render", keyframe.render_ms);
-  const auto begin = Clock::now();
-  keyframe_t message = ToMessage(std::move(keyframe));
-  message.epoch = status_.epoch();
-  Sent sent{message.seq, {}, false};
-  if (recent_.size() >= kRecent) {
-    sent.bytes = std::move(recent_.front().bytes);  // its memory
-    recent_.pop_front();
-  }
-  EncodeTo(message, &sent.bytes);
-  moved_ = Clock::now();
-  status_.AddTiming("encode", Milliseconds(moved_ - begin));
-  last_sent_ = sent.seq;
-  recent_.push_back(std::move(sent));
-  if (to_send_.empty()) {
-    Publish(&recent_.back());
-  } else {
-    to_send_.push_back(last_sent_);  // behind those that are sent again: it would leave a hole before it
-  }
-  status_.Counter("last_keyframe_seq") = last_sent_;
-}
-
-void FrameBuilder::Publish(Sent* sent) {
-  bus_->Publish(channels_.keyframe, sent->bytes.data(), sent->bytes.size());
-  ++status_.Counter(sent->before ? "KEYFRAME.sent_again" : "KEYFRAME.sent");
-  sent->before = true;
+  outbox_.Send(std::move(keyframe));
 }
 
 void FrameBuilder::OnMode(const std::uint8_t* data, std::size_t size) {
@@ -143,23 +118,14 @@ void FrameBuilder::OnMode(const std::uint8_t* data, std::size_t size) {
   if (modes_.Commit(message.epoch, message.seq) == SequenceCounter::Verdict::kOld) return;
   // Before its first keyframe the tracker speaks of none, after our restart of an earlier run's.
   const bool ours = message.keyframe_epoch == status_.epoch() && message.keyframe_seq >= 0 &&
-                    message.keyframe_seq <= last_sent_;
+                    message.keyframe_seq <= outbox_.last_sent();
   if (!ours) {
     ++status_.Counter("TRACKER_MODE.not_ours");
     if (settings_.lossless || message.keyframe_seq < 0) return;
     builder_.SetFeedbackFor(-1, ToFeedback(message));
     return;
   }
-  if (!settings_.lossless && message.resend != 0 && to_send_.empty()) {
-    for (const Sent& sent : recent_) {
-      if (sent.seq > message.keyframe_seq) to_send_.push_back(sent.seq);
-    }
-  }
-  if (message.keyframe_seq > last_answered_) {
-    last_answered_ = message.keyframe_seq;
-    moved_ = Clock::now();
-  }
-  while (settings_.lossless && !recent_.empty() && recent_.front().seq <= last_answered_) recent_.pop_front();
+  outbox_.OnAnswer(message);
   builder_.SetFeedbackFor(message.keyframe_seq, ToFeedback(message));
   if (builder_.awaited_feedback() >= 0) Work();
 }
@@ -174,30 +140,6 @@ void FrameBuilder::OnEnd(const std::uint8_t* data, std::size_t size) {
   Work();
 }
 
-void FrameBuilder::SendAgain() {
-  if (!settings_.lossless || recent_.empty() || Clock::now() - sent_again_ < settings_.send_again ||
-      Clock::now() - moved_ < settings_.send_again) {
-    return;
-  }
-  for (Sent& sent : recent_) Publish(&sent);  // the optimiser takes them in exact order only
-  sent_again_ = Clock::now();
-}
-
-// Few at each call: all at once would not fit the receive buffer.
-void FrameBuilder::SendHeld() {
-  constexpr std::size_t kLongQueue = 8;
-  int n = to_send_.size() > kLongQueue ? 4 : 1;
-  while (n > 0 && !to_send_.empty()) {
-    const std::int64_t seq = to_send_.front();
-    to_send_.pop_front();
-    for (Sent& sent : recent_) {  // it may not be held any more
-      if (sent.seq != seq) continue;
-      Publish(&sent);
-      --n;
-    }
-  }
-}
-
 void FrameBuilder::ReportCounters() {
   const StreamMerger::Counters& c = builder_.counters();
   status_.Counter("events.outside") = c.events_outside;
@@ -209,8 +151,7 @@ void FrameBuilder::ReportCounters() {
 }
 
 void FrameBuilder::Tick() {
-  SendAgain();
-  SendHeld();
+  outbox_.Tick();
   ReportState();
   if (credit_) credit_->Tick();
   ReportCounters();

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <chrono>
-#include <deque>
 #include <optional>
-#include <vector>
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
@@ -12,6 +10,7 @@
 #include "common/service/runner.h"
 #include "common/service/sequence_counter.h"
 #include "common/service/status_reporter.h"
+#include "services/frame_builder/keyframe_outbox.h"
 #include "services/frame_builder/stream_inbox.h"
 
 namespace evit {
@@ -38,23 +37,13 @@ class FrameBuilder : public Service {
   void Stop() override;
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   template <typename Message>
   void OnData(const std::uint8_t* data, std::size_t size);
   void OnMode(const std::uint8_t* data, std::size_t size);
   void OnEnd(const std::uint8_t* data, std::size_t size);
   void Work();
   void Feed(const StreamInbox::Item& item);
-  struct Sent {
-    std::int64_t seq;
-    std::vector<std::uint8_t> bytes;
-    bool before;  // sent already
-  };
   void Send(Keyframe keyframe);
-  void Publish(Sent* sent);
-  void SendAgain();
-  void SendHeld();
   void ReportState();
   void ReportCounters();
 
@@ -66,13 +55,8 @@ class FrameBuilder : public Service {
   StreamInbox inbox_;
   std::optional<CreditSender> credit_;
   KeyframeBuilder builder_;
-  EventArray events_;
-
-  std::deque<Sent> recent_;           // keyframes without an answer; real time: the newest ones
-  std::deque<std::int64_t> to_send_;  // numbers of those to send next, first what a restarted optimiser lacks
-  std::int64_t last_sent_ = -1, last_answered_ = -1;
-  Clock::time_point moved_ = Clock::now();  // last keyframe sent, or answer heard
-  Clock::time_point sent_again_;
+  KeyframeOutbox outbox_;
+  EventArray events_;  // kept for its memory
   bool flushed_ = false;
 };
 
