@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/tracking/alignment_information.h"
 #include "common/tracking/gates.h"
 #include "common/tracking/image_speed.h"
 #include "common/tracking/localizer.h"
@@ -76,7 +77,7 @@ TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
   out.iterations = fit.iterations;
   if (LiesOnEvents(fit.quality, options_.failure.min_contrast)) {
     Accept(keyframe, seconds, fit.T_map_body);
-    const Matrix6d alignment = EvaluateAlignment(alignment_, field, 0, points, fit.T_map_body, true).hessian;
+    const Matrix6d alignment = AlignmentInformation(alignment_, field, points, fit.T_map_body);
     out.information.topLeftCorner<6, 6>() = alignment;
     out.information.bottomRightCorner<9, 9>().setIdentity();
     uncertainty_.SetAlignment(alignment);

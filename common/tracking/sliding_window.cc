@@ -3,6 +3,7 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
+#include "common/tracking/alignment_information.h"
 #include "common/tracking/ceres_factors.h"
 #include "common/tracking/pose_manifold.h"
 
@@ -21,7 +22,11 @@ ImuTerm SlidingWindow::Term(const WindowNode& node) const {
 }
 
 AlignmentTerm SlidingWindow::Align(const WindowNode& node) const {
-  return EvaluateAlignment(alignment_, *node.field, 0, node.points, node.state.T_map_body, true);
+  AlignmentTerm term =
+      EvaluateAlignment(alignment_, *node.field, 0, node.points, node.state.T_map_body, true);
+  // The Hessian of a solver's step claims more than there is to know: it would make the prior sure of noise.
+  term.hessian = AlignmentInformation(alignment_, *node.field, node.points, node.state.T_map_body);
+  return term;
 }
 
 StatePrior SlidingWindow::Eliminate(const StatePrior& prior, const AlignmentTerm& alignment,

@@ -1,0 +1,70 @@
+#include "common/tracking/alignment_information.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <opencv2/imgproc.hpp>
+#include <random>
+
+#include "common/tracking/synthetic_scene.h"
+
+namespace evit {
+namespace {
+
+class AlignmentInformationTest : public ::testing::TestWithParam<RobustKernel::Kind> {
+ protected:
+  AlignmentSettings settings_ = synthetic::Alignment();
+  std::vector<Eigen::Vector3f> room_ = synthetic::RoomPoints();
+  SE3 pose_{ExpSO3({0.3, -0.1, 0.2}), {0.02, -0.03, 0.01}};
+};
+INSTANTIATE_TEST_SUITE_P(Kernels, AlignmentInformationTest,
+                         ::testing::Values(RobustKernel::Kind::kHuber, RobustKernel::Kind::kCauchy,
+                                           RobustKernel::Kind::kGemanMcClure));
+
+// By differences of the gradient, which factors_test.cc holds against differences of the cost.
+TEST_P(AlignmentInformationTest, IsTheCurvatureOfTheCostWhereThatIsAValley) {
+  settings_.kernel = {GetParam(), 1.5};
+  const SE3 pose;
+  const SurfaceField field(synthetic::DrawSurface(settings_, room_, pose), 1);
+  const AlignmentPoints points(room_);
+  const Matrix6d information = AlignmentInformation(settings_, field, points, pose);
+  constexpr double kStep = 2e-4;  // a twentieth of a pixel: the spline's curvature jumps from pixel to pixel
+  for (int i = 0; i < 6; ++i) {
+    const Vector6d step = kStep * Vector6d::Unit(i);
+    const double up = EvaluateAlignment(settings_, field, 0, points, pose.Plus(step), true).gradient[i];
+    const double down = EvaluateAlignment(settings_, field, 0, points, pose.Plus(-step), true).gradient[i];
+    const double numeric = (up - down) / (2 * kStep);
+    EXPECT_NEAR(information(i, i), numeric, 0.2 * std::abs(numeric)) << i;
+  }
+}
+
+// Events that have nothing to do with the map: they say nothing of the pose. The solver's Hessian claims that
+// they do.
+TEST_P(AlignmentInformationTest, OfNoiseIsAFractionOfWhatTheSolversHessianClaims) {
+  settings_.kernel = {GetParam(), 1};
+  cv::Mat noise(settings_.camera().height, settings_.camera().width, CV_8UC1, cv::Scalar(255));
+  std::mt19937 rng(1);
+  for (int k = 0; k < 20'000; ++k) {
+    noise.at<std::uint8_t>(static_cast<int>(rng() % 480), static_cast<int>(rng() % 640)) =
+        static_cast<std::uint8_t>(rng() % 200);
+  }
+  cv::GaussianBlur(noise, noise, {}, 1.0);
+  const SurfaceField field(noise, 1);
+  const AlignmentPoints points(room_);
+  const Matrix6d claimed = EvaluateAlignment(settings_, field, 0, points, pose_, true).hessian;
+  const Matrix6d information = AlignmentInformation(settings_, field, points, pose_);
+  EXPECT_LT((claimed.inverse() * information).trace() / 6, 0.35);
+  EXPECT_GE(Eigen::SelfAdjointEigenSolver<Matrix6d>(information).eigenvalues().minCoeff(),
+            -1e-9 * information.norm());
+}
+
+TEST_P(AlignmentInformationTest, WithoutPointsInViewIsNothing) {
+  const SurfaceField field(synthetic::DrawSurface(settings_, room_, pose_), 1);
+  EXPECT_EQ(AlignmentInformation(settings_, field, AlignmentPoints(), pose_).norm(), 0);
+  SE3 away = pose_;
+  away.q = away.q * ExpSO3({0, 0, 3});
+  EXPECT_EQ(AlignmentInformation(settings_, field, AlignmentPoints(room_), away).norm(), 0);
+}
+
+}  // namespace
+}  // namespace evit
