@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/tracking/alignment_significance.h"
 #include "common/tracking/gates.h"
 #include "common/tracking/localizer.h"
 #include "common/tracking/place_search.h"
+#include "common/tracking/start_search.h"
 
 namespace evit {
 namespace {
@@ -67,11 +69,15 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
         InitialPose(alignment_, *points_, *field, predicted, rate, rejected_, keyframe.seq);
   }
   result.points = points_->Select(predicted, rate, points_->per_keyframe(), keyframe.seq);
-  const LocalizerResult fit = Localize(alignment_, *field, result.points, predicted.T_map_body, range);
+  const LocalizerResult fit =
+      chained ? LocalizeBest(alignment_, *field, result.points, predicted.T_map_body, range)
+              : SearchStart(alignment_, *field, result.points, predicted.T_map_body, range, keyframe.seq);
+  const double significance = AlignmentSignificance(alignment_, *field, result.points, fit.T_map_body);
   result.quality = fit.quality;
   result.iterations = fit.iterations;
   if (!WithinReach(fit.T_map_body, predicted.T_map_body, range) ||
-      !LiesOnEvents(fit.quality, options_.bootstrap.min_contrast)) {
+      !LiesOnEvents(fit.quality, options_.bootstrap.min_contrast, significance,
+                    chained ? kFollowSignificance : kStartSignificance)) {
     RejectFrame(&result);
     return result;
   }
@@ -91,8 +97,24 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
   anchor_.Start(fit.T_map_body, state_.velocity);
   result.status = Result::Status::kLocalized;
   result.reason = "localising high-rate frames";
-  if (ReadyToAlign()) Align(&result);
+  if (ReadyToAlign() && Verified(keyframe.seq, &result)) Align(&result);
   return result;
+}
+
+// A false lock may look as sure as the right one while no other is known: before the window takes over, none
+// may explain the newest frame as well. Where another explains it better the chain begins anew from there.
+bool Bootstrapper::Verified(std::int64_t seq, Result* result) {
+  const SurfaceField& field = *frames_.back().field;
+  const StartRival rival = FindRival(alignment_, field, result->points, state_.T_map_body, kStart, seq);
+  if (!rival.distinct || rival.significance > 0) return true;
+  result->reason = "another pose explains the events as well";
+  if (rival.significance < -kPreferredSignificance) {
+    BodyState start = state_;
+    start.T_map_body = rival.T_map_body;
+    start.velocity.setZero();
+    Start(start);
+  }
+  return false;
 }
 
 void Bootstrapper::RejectFrame(Result* result) {

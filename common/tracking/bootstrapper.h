@@ -59,6 +59,7 @@ class Bootstrapper {
   void RejectFrame(Result* result);
   Eigen::Vector3d RecentVelocity() const;
   bool ReadyToAlign() const;
+  bool Verified(std::int64_t seq, Result* result);
   void Align(Result* result);
 
   Rig rig_;

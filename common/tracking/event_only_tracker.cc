@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/tracking/alignment_information.h"
+#include "common/tracking/alignment_significance.h"
 #include "common/tracking/gates.h"
 #include "common/tracking/image_speed.h"
 #include "common/tracking/localizer.h"
@@ -11,7 +12,7 @@ namespace evit {
 namespace {
 
 constexpr StartRange kRange{0.05, 0.05, 3};  // how far a body may get between two frames, and then some
-constexpr int kPatience = 30;                // frames that do not fit before it says LOST
+constexpr int kPatience = 150;               // frames that do not fit before it says LOST: at rest none does
 
 }  // namespace
 
@@ -70,12 +71,13 @@ TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
   const BodyState predicted = Predict(seconds);
   const SurfaceField field(keyframe.surface, kRange.levels);
   const AlignmentPoints points = points_.Select(predicted, rate_, points_.per_keyframe(), keyframe.seq);
-  const LocalizerResult fit = Localize(alignment_, field, points, predicted.T_map_body, kRange);
+  const LocalizerResult fit = LocalizeBest(alignment_, field, points, predicted.T_map_body, kRange);
   state_time_ = keyframe.t;
   TrackerOutput out;
   out.quality = fit.quality;
   out.iterations = fit.iterations;
-  if (LiesOnEvents(fit.quality, options_.failure.min_contrast)) {
+  const double significance = AlignmentSignificance(alignment_, field, points, fit.T_map_body);
+  if (LiesOnEvents(fit.quality, options_.failure.min_contrast, significance, kFollowSignificance)) {
     Accept(keyframe, seconds, fit.T_map_body);
     const Matrix6d alignment = AlignmentInformation(alignment_, field, points, fit.T_map_body);
     out.information.topLeftCorner<6, 6>() = alignment;

@@ -25,7 +25,7 @@ TEST(EventOnlyTracker, TracksWithoutTheImuAndSaysWhenItIsLost) {
   }
   EXPECT_GT(out.covariance(0, 0), 0);
   const auto other = synthetic::RoomPoints(60, 99);
-  for (int k = 0; k < 60; ++k) out = bench.Step(2'003'333 + k * 3'333, other);
+  for (int k = 0; k < 200; ++k) out = bench.Step(2'003'333 + k * 3'333, other);
   EXPECT_EQ(out.mode, TrackerMode::kLost);
 }
 

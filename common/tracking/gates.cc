@@ -4,8 +4,10 @@
 
 namespace evit {
 
-bool LiesOnEvents(const AlignmentQuality& quality, double min_contrast) {
-  return quality.n_points >= kMinPoints && quality.contrast() >= min_contrast;
+bool LiesOnEvents(const AlignmentQuality& quality, double min_contrast, double significance,
+                  double min_significance) {
+  return quality.n_points >= kMinPoints && quality.contrast() >= min_contrast &&
+         significance >= min_significance;
 }
 
 bool WithinReach(const SE3& found, const SE3& predicted, const StartRange& range) {

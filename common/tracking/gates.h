@@ -12,8 +12,10 @@ namespace evit {
 
 constexpr int kMinPoints = 30;  // in view: fewer say nothing about six unknowns
 
-/// Whether the map lies on a keyframe's events: enough points in view, and on edges more than beside them.
-bool LiesOnEvents(const AlignmentQuality& quality, double min_contrast);
+/// Whether the map lies on a keyframe's events: enough points in view, and surely (AlignmentSignificance, at
+/// least `min_significance`) and, where that is asked for, much more on edges than beside them.
+bool LiesOnEvents(const AlignmentQuality& quality, double min_contrast, double significance,
+                  double min_significance);
 
 /// Whether a localised pose lies where it can be, given the range it was looked for in: one far from there is
 /// a false minimum, however well the points happen to lie. (The gyro knows the turn between two frames far

@@ -12,10 +12,11 @@ TEST(Gates, AMapOnTheEventsIsSeenBetterThanBesideThem) {
   quality.n_points = kMinPoints;
   quality.mean_value = 100;
   quality.shifted_value = 200;
-  EXPECT_TRUE(LiesOnEvents(quality, 0.5));
-  EXPECT_FALSE(LiesOnEvents(quality, 0.51));
+  EXPECT_TRUE(LiesOnEvents(quality, 0.5, 3, 3));
+  EXPECT_FALSE(LiesOnEvents(quality, 0.51, 3, 3));
+  EXPECT_FALSE(LiesOnEvents(quality, 0.5, 2.9, 3));
   quality.n_points = kMinPoints - 1;
-  EXPECT_FALSE(LiesOnEvents(quality, 0.5));
+  EXPECT_FALSE(LiesOnEvents(quality, 0.5, 3, 3));
 }
 
 TEST(Gates, APoseFarFromWhereItWasLookedForIsOutOfReach) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "common/tracking/alignment_significance.h"
 #include "common/tracking/ceres_factors.h"
 #include "common/tracking/pose_manifold.h"
 
@@ -41,6 +42,24 @@ LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& 
   result.T_map_body.q.normalize();
   result.quality = MeasureAlignment(settings, field, points, result.T_map_body);
   return result;
+}
+
+LocalizerResult LocalizeBest(const AlignmentSettings& settings, const SurfaceField& field,
+                             const AlignmentPoints& points, const SE3& start, const StartRange& range) {
+  LocalizerResult best;
+  best.T_map_body = start;
+  best.quality = MeasureAlignment(settings, field, points, start);
+  double most = AlignmentSignificance(settings, field, points, start);
+  int iterations = 0;
+  StartRange shallow = range;
+  for (shallow.levels = 1; shallow.levels <= std::min(range.levels, field.levels()); ++shallow.levels) {
+    const LocalizerResult fit = Localize(settings, field, points, start, shallow);
+    iterations += fit.iterations;
+    const double significance = AlignmentSignificance(settings, field, points, fit.T_map_body);
+    if (significance > most) most = significance, best = fit;
+  }
+  best.iterations = iterations;
+  return best;
 }
 
 }  // namespace evit

@@ -23,4 +23,10 @@ LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& 
                          const AlignmentPoints& points, const SE3& start, const StartRange& range,
                          int max_iterations = 15);
 
+/// Localize() from each depth up to the range's, and the start itself: the pose that explains the frame most
+/// surely (AlignmentSignificance). A coarse level may be as wide as the scene's own structure, or crowd all
+/// points onto the densest events, and so leave a right pose; the search never ends worse than it began.
+LocalizerResult LocalizeBest(const AlignmentSettings& settings, const SurfaceField& field,
+                             const AlignmentPoints& points, const SE3& start, const StartRange& range);
+
 }  // namespace evit

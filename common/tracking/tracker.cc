@@ -130,6 +130,8 @@ void Tracker::Bootstrap(const KeyframeInput& keyframe, bool follows, TrackerOutp
   Bootstrapper::Result found = bootstrapper_.Process(keyframe, follows, rate_);
   out->quality = found.quality;
   out->iterations = found.iterations;
+  // How the next surfaces are drawn: by the gyro's part of the image speed, until the velocity is known too.
+  out->image_speed = MedianImageSpeed(alignment_, found.points, state().T_map_body, state().velocity, rate_);
   const bool lost = mode_ == TrackerMode::kLost;  // and the reason for it stays until the map is found again
   switch (found.status) {
     case Bootstrapper::Result::Status::kRejected:

@@ -6,6 +6,7 @@
 
 #include "common/imu/propagation.h"
 #include "common/text/format_text.h"
+#include "common/tracking/alignment_significance.h"
 #include "common/tracking/gates.h"
 
 namespace evit {
@@ -111,7 +112,11 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
 std::string WindowTracker::WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality) const {
   if (keyframe.n_events < options_.min_events) return "no events";
   if (window_.nodes().back().points.size() < kMinPoints) return "no map points in view";
-  if (!LiesOnEvents(quality, options_.failure.min_contrast)) return "the map does not lie on the events";
+  const WindowNode& newest = window_.nodes().back();
+  const double significance =
+      AlignmentSignificance(alignment_, *newest.field, newest.points, newest.state.T_map_body);
+  if (!LiesOnEvents(quality, options_.failure.min_contrast, significance, kTrackingSignificance))
+    return "the map does not lie on the events";
   return "";
 }
 
