@@ -16,7 +16,7 @@ class SettingsTextTest : public test::ConfigFilesTest {};
 SettingValue Other(const std::string& path, const SettingValue& usual) {
   if (const auto* flag = std::get_if<bool>(&usual)) return !*flag;
   if (const auto* real = std::get_if<double>(&usual))
-    return path == "keyframes.fixed_rate_hz" ? 30 : *real * 0.97;
+    return path == "keyframes.fixed_rate_hz" ? 30 : *real == 0 ? 0.03 : *real * 0.97;
   const std::int64_t whole = std::get<std::int64_t>(usual);
   return whole == 0 ? std::int64_t{1} : whole <= 2 ? whole - 1 : whole + 1;
 }
@@ -48,7 +48,7 @@ TEST_F(SettingsTextTest, CommentsTellUnitMeaningAndOrigin) {
   EXPECT_THAT(text, HasSubstr("  lookahead_ms: 10 "));
   EXPECT_THAT(text, HasSubstr("# 0 to 200 ms: SYMMETRIC: how far events after the stamp count"));
   EXPECT_THAT(text, HasSubstr("[" + path + ":3; default 40]"));
-  EXPECT_THAT(text, HasSubstr("  n_event: 30000"));
+  EXPECT_THAT(text, HasSubstr("  n_event: 8000"));
   EXPECT_THAT(text, HasSubstr("since the last keyframe, at least [default]"));
   EXPECT_THAT(text, Not(HasSubstr("evpt")));
   EXPECT_EQ(SettingsText(LoadOptions(Write("b.textproto", text))), SettingsText(LoadOptions(path)));

@@ -17,7 +17,7 @@ struct SurfaceOptions {
   double max_decay_ms = 60;
   double default_decay_ms = 15;  // while the image speed is unknown
   double truncation = 40;      // grey levels 0..255 of the (not negated) surface; older events count as none
-  double blur_sigma_px = 0.5;  // Gaussian blur
+  double blur_sigma_px = 1;    // Gaussian blur
   bool support_filter = true;  // only pixels with a neighbour that fired too: background noise is left out
   double lag_px = 0.25;        // how far events are behind the edges that cause them
   double hot_pixel_rate_hz = 100;  // events/s of a defect pixel, at least; such pixels are left out. 0: off

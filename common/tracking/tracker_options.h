@@ -9,7 +9,7 @@ namespace evit {
 /// Which map points a keyframe is aligned with.
 struct PointOptions {
   int max_active = 5000;    // points asked of map_server for one view
-  int per_keyframe = 1500;  // random subset of those used by the solver for each keyframe
+  int per_keyframe = 4000;  // random subset of those used by the solver for each keyframe
   double margin_px = 40;    // how much wider than the image the frustum of the predicted pose is
   double min_depth_m = 0.1;
   double max_depth_m = 12;
@@ -46,13 +46,13 @@ struct BootstrapOptions {
   double max_duration_s = 2;         // bootstrap anyway after this long
   double max_gyro_bias = 0.1;        // rad/s: a larger solution is refused (map not upright, wrong rig)
   double max_accel_bias = 0.6;       // m/s^2
-  double min_contrast = 0.06;  // 0..1: how much better points must lie on a frame's events than beside them
+  double min_contrast = 0;  // 0..1: by how much points must lie better on a frame's events than beside them
 };
 
 /// When tracking has failed.
 struct FailureOptions {
-  double min_contrast = 0.03;  // 0..1: as in bootstrapping; lower, since the IMU vouches for the pose too
-  double max_coast_s = 2;      // without events that fit: the IMU carries the pose, with growing uncertainty
+  double min_contrast = 0;  // 0..1: as in bootstrapping
+  double max_coast_s = 2;   // without events that fit: the IMU carries the pose, with growing uncertainty
   double max_position_sigma_m = 0.15;  // beyond it, or max_coast_s, the tracker says LOST
   double max_speed = 6;                // m/s
   double max_gyro_bias = 0.2;          // rad/s

@@ -35,7 +35,7 @@ TEST(Tracker, BootstrapsAndTracksASyntheticRoom) {
     }
     EXPECT_EQ(out.mode, TrackerMode::kTracking) << out.reason;
     EXPECT_GT(tracked, 80);
-    EXPECT_LT(worst, 0.006);
+    EXPECT_LT(worst, 0.007);
     EXPECT_LT(worst_angle, 0.004);
     EXPECT_GT(out.image_speed, 1);
     EXPECT_GT(out.covariance.diagonal().minCoeff(), 0);
