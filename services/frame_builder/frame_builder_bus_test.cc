@@ -133,7 +133,7 @@ TEST_F(FrameBuilderBusTest, RealTimeMakesKeyframesWithoutAnyAnswer) {
 TEST_F(FrameBuilderBusTest, RefusesFilesItCannotUse) {
   EXPECT_EQ(Program({"--rig", "/nowhere/rig.textproto", "--config", kConfig, "--lcm-url", kUrl}).Wait(), 1);
   const std::string broken = ::testing::TempDir() + "frame_builder_bus_test.textproto";
-  std::ofstream(broken) << "keyframes { n_event: 1 }\n";
+  std::ofstream(broken) << "keyframes { n_evnt: 1 }\n";
   EXPECT_EQ(Program({"--rig", kRig, "--config", broken, "--lcm-url", kUrl}).Wait(), 1);
   std::remove(broken.c_str());
   EXPECT_NE(Program({"--config", kConfig}).Wait(), 0);

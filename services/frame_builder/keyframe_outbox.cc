@@ -15,11 +15,7 @@ constexpr std::size_t kMostHeld = 32;  // keyframes
 
 KeyframeOutbox::KeyframeOutbox(Bus* bus, std::string channel, StatusReporter* status, bool lossless,
                                std::chrono::milliseconds send_again)
-    : bus_(bus),
-      channel_(std::move(channel)),
-      status_(status),
-      lossless_(lossless),
-      send_again_(send_again) {
+    : bus_(bus), channel_(std::move(channel)), status_(status), lossless_(lossless), send_again_(send_again) {
   status_->Counter("last_keyframe_seq") = last_sent_;
 }
 

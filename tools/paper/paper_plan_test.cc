@@ -159,7 +159,7 @@ TEST_F(PlanTest, IndexDescribesResultsAndTheirOrigin) {
   const std::string text = IndexText(plan, results, {{"window.png", "a window"}, {"", "not drawn"}}, facts);
   for (const char* what :
        {"evit paper --out x", "commit: abc", "Table II.", "| desk_fast | EVIT | (dyn) | 1.00 |",
-        "figures/window.png", "run a: exit code 1", "motion_model 0"})
+        "figures/window.png", "run a: exit code 1", "motion_model PREVIOUS_POSE"})
     EXPECT_THAT(text, HasSubstr(what));
   EXPECT_EQ(text.find("Table I."), std::string::npos);
 }

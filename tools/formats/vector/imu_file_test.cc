@@ -32,7 +32,7 @@ TEST(ImuFile, ReadsExactMicroseconds) {
 TEST(ImuFile, NamesTheLineOfABadRow) {
   const std::string good = "1.0 0 0 0 0 0 9.8\n";
   for (const auto& [row, what] :
-       {std::pair("1.005 0 0 0 0\n", "seven"), std::pair("x 0 0 0 0 0 0\n", "decimal"),
+       {std::pair("1.005 0 0 0 0\n", "gx gy gz ax ay az"), std::pair("x 0 0 0 0 0 0\n", "decimal"),
         std::pair("1.005 0 0 nan 0 0 0\n", "finite"), std::pair("0.9 0 0 0 0 0 0\n", "increase")}) {
     const auto read = [text = kHead + good + row] { ReadImuFile(Write(text)); };
     EXPECT_THAT(read, ThrowsMessage<std::runtime_error>(HasSubstr(":5: ")));
