@@ -102,7 +102,7 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
 }
 
 // A false lock may look as sure as the right one while no other is known: before the window takes over, none
-// may explain the newest frame as well. Where another explains it better the chain begins anew from there.
+// may explain the newest frame as well. Where another explains it better the chain starts again from there.
 bool Bootstrapper::Verified(std::int64_t seq, Result* result) {
   const SurfaceField& field = *frames_.back().field;
   const StartRival rival = FindRival(alignment_, field, result->points, state_.T_map_body, kStart, seq);
