@@ -41,8 +41,6 @@ class Preintegration {
   bool NeedsRepropagation(const ImuBias& bias) const;
 
   double dt() const { return dt_; }  // s
-  Utime begin() const { return samples_.front().t; }
-  Utime end() const { return samples_.back().t; }
   const ImuBias& bias() const { return bias_; }
   const Delta& delta() const { return delta_; }
   const Matrix9d& covariance() const { return covariance_; }
