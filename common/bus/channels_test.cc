@@ -1,4 +1,4 @@
-// Keeps docs/channels.md, common/bus/channels.h and lcmtypes/ true to each other.
+// Keeps docs/reference/channels.md, common/bus/channels.h and lcmtypes/ true to each other.
 #include "common/bus/channels.h"
 
 #include <gmock/gmock.h>

@@ -28,7 +28,7 @@ struct WindowOptions {
   int size = 5;  // keyframes N
   RobustKernel::Kind kernel = RobustKernel::Kind::kCauchy;
   FirstNode first_node = FirstNode::kPrior;
-  double image_sigma = 80;   // grey levels: noise of one surface value (docs/method.md argues the figure)
+  double image_sigma = 80;   // grey levels: noise of one surface value (docs/explanation/method.md argues the figure)
   double robust_scale = 80;  // grey levels: scale of the kernel
   int max_iterations = 12;
   double imu_noise_factor = 2;  // on the calibrated densities: covers integration error and vibration

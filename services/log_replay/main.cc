@@ -1,4 +1,4 @@
-// log_replay: replays a recorded log over LCM. See docs/channels.md for what it sends.
+// log_replay: replays a recorded log over LCM. See docs/reference/channels.md for what it sends.
 #include <CLI/CLI.hpp>
 #include <stdexcept>
 #include <string>
