@@ -139,11 +139,11 @@ TEST_F(CovarianceFile, SaysWhatIsWrongAndWhere) {
   Write(row);
   EXPECT_EQ(ReadCovariances(path_)[0].covariance, Matrix6d::Identity());
   expect("", "no covariance");
-  expect(row + "2,1,0\n", ":2: expected finite numbers");
+  expect(row + "2,1,0\n", ":2: the line ends too early");
   expect(row + row, ":2: the time does not increase");
-  expect("1.5" + row.substr(1), "whole microseconds");
+  expect("1.5" + row.substr(1), "1.5\" is not a whole number");
   expect("1,nan" + row.substr(3), "expected");
-  expect(row.substr(0, row.size() - 1) + ",7\n", "more than 22");
+  expect(row.substr(0, row.size() - 1) + ",7\n", "more than");
   EXPECT_THAT([] { ReadCovariances("/none/c.csv"); },
               ThrowsMessage<std::runtime_error>(HasSubstr("/none/c.csv")));
   EXPECT_THAT([] { WriteCovariances("/none/c.csv", {}); },

@@ -2,28 +2,23 @@
 
 #include <cstdio>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
-#include "common/files/number_rows.h"
+#include "common/files/table_reader.h"
 #include "common/files/whole_file.h"
 
 namespace evit {
 
 Covariances ReadCovariances(const std::string& path) {
-  NumberRows rows(path, "utime and the 21 numbers of the upper triangle of a 6x6 matrix",
-                  "the covariance.csv of an `evit run`");
+  TableReader rows(path, "utime and the 21 numbers of the upper triangle of a 6x6 matrix");
   Covariances all;
   while (rows.Next()) {
-    std::istringstream stamp(rows.first());
     StampedCovariance row;
-    if (!(stamp >> row.t) || stamp.peek() != std::istringstream::traits_type::eof()) {
-      rows.Fail("the first field is not a time in whole microseconds");
-    }
+    row.t = rows.Integer();
     for (int r = 0; r < 6; ++r) {
-      for (int c = r; c < 6; ++c) row.covariance(r, c) = row.covariance(c, r) = rows.Number();
+      for (int c = r; c < 6; ++c) row.covariance(r, c) = row.covariance(c, r) = rows.Finite();
     }
-    if (rows.more()) rows.Fail("there are more than 22 numbers");
+    rows.End();
     if (!all.empty() && row.t <= all.back().t) rows.Fail("the time does not increase");
     all.push_back(row);
   }

@@ -5,21 +5,20 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "common/evaluation/decimal_time.h"
-#include "common/files/number_rows.h"
+#include "common/files/decimal_time.h"
+#include "common/files/table_reader.h"
 #include "common/files/whole_file.h"
 
 namespace evit {
 
 Trajectory ReadTum(const std::string& path) {
-  NumberRows rows(path, "t x y z qx qy qz qw", "a TUM file");
+  TableReader rows(path, "t x y z qx qy qz qw");
   Trajectory trajectory;
   while (rows.Next()) {
     StampedPose row;
-    if (!ParseDecimalSeconds(rows.first(), &row.t))
-      rows.Fail("\"" + rows.first() + "\" is not a time in decimal seconds");
+    if (!rows.Time(&row.t)) rows.Fail("the time is not finite");
     double v[7];
-    for (double& x : v) x = rows.Number();
+    for (double& x : v) x = rows.Finite();
     const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
     if (std::abs(q.norm() - 1) > 1e-2) rows.Fail("the quaternion qx qy qz qw is not of length 1");
     if (!trajectory.empty() && row.t <= trajectory.back().t) rows.Fail("the time does not increase");

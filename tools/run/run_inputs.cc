@@ -13,7 +13,7 @@
 #include "common/config/rig_file.h"
 #include "common/config/settings_file.h"
 #include "common/config/settings_text.h"
-#include "common/evaluation/decimal_time.h"
+#include "common/files/decimal_time.h"
 #include "common/map/map_file.h"
 #include "common/map/photometric_map.h"
 

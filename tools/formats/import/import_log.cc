@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "common/evaluation/decimal_time.h"
+#include "common/files/decimal_time.h"
 #include "tools/formats/import/stream_writer.h"
 
 namespace evit::formats {

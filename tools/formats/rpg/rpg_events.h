@@ -2,9 +2,9 @@
 
 #include <string>
 
+#include "common/files/table_reader.h"
 #include "tools/formats/import/event_filter.h"
 #include "tools/formats/import/event_source.h"
-#include "tools/formats/import/line_reader.h"
 
 namespace evit::formats {
 
@@ -20,7 +20,7 @@ class RpgEvents : public EventSource {
 
  private:
   std::string path_;
-  LineReader lines_;
+  TableReader lines_;
   EventFilter filter_;
 };
 

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "common/config/rig_file.h"
-#include "common/evaluation/decimal_time.h"
+#include "common/files/decimal_time.h"
 #include "tests/helpers/imported_log.h"
 
 namespace evit::formats {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tools/formats/import/line_reader.h"
+#include "common/files/table_reader.h"
 
 namespace evit::formats {
 
 std::vector<ImuSample> ReadRpgImu(const std::string& path, DropCounts* dropped) {
-  LineReader lines(path, "t ax ay az gx gy gz");
+  TableReader lines(path, "t ax ay az gx gy gz");
   std::vector<ImuSample> samples;
   while (lines.Next()) {
     ImuSample s;
@@ -24,7 +24,7 @@ std::vector<ImuSample> ReadRpgImu(const std::string& path, DropCounts* dropped) 
 }
 
 Trajectory ReadRpgTruth(const std::string& path, DropCounts* dropped) {
-  LineReader lines(path, "t px py pz qx qy qz qw");
+  TableReader lines(path, "t px py pz qx qy qz qw");
   Trajectory truth;
   while (lines.Next()) {
     StampedPose s;
@@ -38,7 +38,7 @@ Trajectory ReadRpgTruth(const std::string& path, DropCounts* dropped) {
 }
 
 Camera ReadRpgCamera(const std::string& path, int width, int height) {
-  LineReader lines(path, "fx fy cx cy k1 k2 p1 p2 k3");
+  TableReader lines(path, "fx fy cx cy k1 k2 p1 p2 k3");
   if (!lines.Next()) throw std::runtime_error(path + ": is empty; expected fx fy cx cy k1 k2 p1 p2 k3");
   Camera camera;
   camera.width = width;

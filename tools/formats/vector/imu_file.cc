@@ -2,20 +2,18 @@
 
 #include <stdexcept>
 
-#include "common/evaluation/decimal_time.h"
-#include "common/files/number_rows.h"
+#include "common/files/table_reader.h"
 
 namespace evit::formats {
 
 std::vector<ImuSample> ReadImuFile(const std::string& path) {
-  NumberRows rows(path, "timestamp gx gy gz ax ay az", "VECtor's IMU file");
+  TableReader rows(path, "timestamp gx gy gz ax ay az");
   std::vector<ImuSample> samples;
   while (rows.Next()) {
     ImuSample s;
-    if (!ParseDecimalSeconds(rows.first(), &s.t))
-      rows.Fail("\"" + rows.first() + "\" is not a time in decimal seconds");
+    if (!rows.Time(&s.t)) rows.Fail("the time is not finite");
     for (Eigen::Vector3d* v : {&s.gyro, &s.accel}) {
-      for (int k = 0; k < 3; ++k) (*v)[k] = rows.Number();
+      for (int k = 0; k < 3; ++k) (*v)[k] = rows.Finite();
     }
     if (!samples.empty() && s.t <= samples.back().t) rows.Fail("the time does not increase");
     samples.push_back(s);

@@ -11,8 +11,8 @@
 
 #include "common/bus/codec.h"
 #include "common/bus/log_file.h"
-#include "common/evaluation/decimal_time.h"
 #include "common/evaluation/trajectory.h"
+#include "common/files/decimal_time.h"
 #include "common/wire/event_wire.h"
 #include "tools/formats/vector/event_file_writer.h"
 

@@ -1,0 +1,116 @@
+#include "common/files/table_sample.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+#include "common/files/table_reader.h"
+
+namespace evit {
+namespace {
+
+// A word in lower case, taken apart at everything that is no letter: "#timestamp[ns]" to "timestamp", "ns".
+std::vector<std::string> Letters(const std::string& word) {
+  std::vector<std::string> parts(1);
+  for (const char c : word) {
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
+      parts.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    } else if (!parts.back().empty()) {
+      parts.emplace_back();
+    }
+  }
+  return parts;
+}
+
+std::optional<TimeUnit> UnitNamed(const std::string& word) {
+  for (const auto& [name, unit] :
+       {std::pair("s", TimeUnit::kSeconds), std::pair("sec", TimeUnit::kSeconds),
+        std::pair("secs", TimeUnit::kSeconds), std::pair("seconds", TimeUnit::kSeconds),
+        std::pair("ms", TimeUnit::kMilliseconds), std::pair("msec", TimeUnit::kMilliseconds),
+        std::pair("milliseconds", TimeUnit::kMilliseconds), std::pair("us", TimeUnit::kMicroseconds),
+        std::pair("usec", TimeUnit::kMicroseconds), std::pair("micros", TimeUnit::kMicroseconds),
+        std::pair("microseconds", TimeUnit::kMicroseconds), std::pair("ns", TimeUnit::kNanoseconds),
+        std::pair("nsec", TimeUnit::kNanoseconds), std::pair("nanoseconds", TimeUnit::kNanoseconds)}) {
+    if (word == name) return unit;
+  }
+  return {};
+}
+
+constexpr double kSeconds[] = {1, 1e-3, 1e-6, 1e-9};  // of each TimeUnit
+
+// What a column of whole numbers looks like.
+struct Steps {
+  double median = 0;         // of those between different numbers
+  bool mostly_none = false;  // more than half of the rows have the number of the row before
+};
+
+Steps StepsOf(const std::vector<double>& stamps) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < stamps.size(); ++k) {
+    if (stamps[k] != stamps[k - 1]) steps.push_back(std::abs(stamps[k] - stamps[k - 1]));
+  }
+  Steps out;
+  out.mostly_none = 2 * steps.size() + 1 < stamps.size();
+  if (steps.empty()) return out;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  out.median = *middle;
+  return out;
+}
+
+}  // namespace
+
+TableSample SampleTable(const std::string& path, const std::string& layout, std::size_t max_rows) {
+  TableReader table(path, layout);
+  TableSample sample;
+  while (sample.rows.size() < max_rows && table.Next()) {
+    std::vector<std::string>& row = sample.rows.emplace_back();
+    while (table.more()) row.emplace_back(table.Word());
+  }
+  sample.head = table.head();
+  return sample;
+}
+
+std::optional<TimeUnit> UnitInName(const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    for (const std::string& part : Letters(word)) {
+      if (const auto unit = UnitNamed(part)) return unit;
+    }
+  }
+  return {};
+}
+
+TimeUnit UnitOfStamps(const TableSample& sample, std::size_t column, double slowest_s) {
+  // A head of more words than columns has its units apart: those of the first column come before all others.
+  std::vector<std::string> name;
+  const std::size_t columns = sample.rows.empty() ? 0 : sample.rows.front().size();
+  if (column == 0) {
+    name.assign(sample.head.begin(), sample.head.begin() + std::min<std::ptrdiff_t>(
+                                                               2, static_cast<std::ptrdiff_t>(sample.head.size())));
+    if (sample.head.size() <= columns && name.size() > 1) name.pop_back();
+  } else if (column < sample.head.size() && sample.head.size() <= columns) {
+    name = {sample.head[column]};
+  }
+  if (const auto said = UnitInName(name)) return *said;
+  std::vector<double> stamps;
+  std::optional<TimeUnit> date;
+  bool whole = true;
+  for (const auto& row : sample.rows) {
+    double value = 0;
+    if (column >= row.size() || !ParseNumber(row[column], &value) || !std::isfinite(value)) continue;
+    if (stamps.empty()) date = UnitOfDate(row[column]);
+    whole = whole && value == std::floor(value);
+    stamps.push_back(value);
+  }
+  const Steps steps = StepsOf(stamps);
+  const auto fits = [&](TimeUnit unit) {
+    return steps.median * kSeconds[static_cast<int>(unit)] <= slowest_s;
+  };
+  if (date && (*date == TimeUnit::kSeconds ? !whole || (fits(*date) && !steps.mostly_none) : fits(*date)))
+    return *date;
+  if (!whole || stamps.size() < 2 || (fits(TimeUnit::kSeconds) && !steps.mostly_none)) return TimeUnit::kSeconds;
+  return steps.median * 1e-6 <= std::min(slowest_s, 0.5) ? TimeUnit::kMicroseconds : TimeUnit::kNanoseconds;
+}
+
+}  // namespace evit
