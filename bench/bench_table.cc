@@ -1,5 +1,4 @@
 // Makes the tables and curves of docs/results/performance.md from the JSON files of the benchmarks and of `evit run`.
-#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "bench/curves.h"
@@ -10,21 +9,17 @@
 namespace {
 
 int Main(int argc, char** argv) {
-  CLI::App app{"Tables and curves from benchmark results."};
+  evit::CommandLine line{"Tables and curves from benchmark results."};
   std::vector<std::string> results, runs;
   std::string json, markdown, curves, stages, commit;
-  app.add_option("results", results, "JSON files of Google Benchmark")->check(CLI::ExistingFile);
-  app.add_option("--run", runs, "NAME=report.json of `evit run`");
-  app.add_option("--commit", commit, "Commit the results belong to");
-  app.add_option("--json", json, "File to write all results to");
-  app.add_option("--markdown", markdown, "File to write the tables to");
-  app.add_option("--curves", curves, "Folder to write the scaling curves to (CSV and PNG)");
-  app.add_option("--stages", stages, "PNG to draw where a keyframe's time goes, of the first run");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error);
-  }
+  line.Add("results", &results, "JSON files of Google Benchmark").ExistingFiles();
+  line.Add("--run", &runs, "NAME=report.json of `evit run`");
+  line.Add("--commit", &commit, "Commit the results belong to");
+  line.Add("--json", &json, "File to write all results to");
+  line.Add("--markdown", &markdown, "File to write the tables to");
+  line.Add("--curves", &curves, "Folder to write the scaling curves to (CSV and PNG)");
+  line.Add("--stages", &stages, "PNG to draw where a keyframe's time goes, of the first run");
+  if (const auto code = line.Parse(argc, argv)) return *code;
   const evit::bench::Results all = evit::bench::LoadResults(results, runs, commit);
   const std::string tables = evit::bench::Tables(all);
   std::cout << tables;

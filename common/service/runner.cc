@@ -1,6 +1,5 @@
 #include "common/service/runner.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -19,14 +18,14 @@ constexpr char kDefaultUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=41
 
 }  // namespace
 
-void AddServiceOptions(CLI::App* app, ServiceOptions* options, bool with_flow) {
-  app->add_option("--lcm-url", options->lcm_url,
-                  std::string("LCM bus; default: LCM_DEFAULT_URL, else ") + kDefaultUrl);
-  app->add_option("--prefix", options->prefix,
-                  "in front of every channel name, so that pipelines can share a bus");
+void AddServiceOptions(CommandLine* line, ServiceOptions* options, bool with_flow) {
+  line->Add("--lcm-url", &options->lcm_url,
+            std::string("LCM bus; default: LCM_DEFAULT_URL, else ") + kDefaultUrl);
+  line->Add("--prefix", &options->prefix,
+            "in front of every channel name, so that pipelines can share a bus");
   if (with_flow) {
-    app->add_flag(
-        "--lossless", options->lossless,
+    line->AddFlag(
+        "--lossless", &options->lossless,
         "nothing is dropped: the sender waits for its receivers (default: real time, losses are counted)");
   }
 }

@@ -4,10 +4,7 @@
 #include <string>
 
 #include "common/bus/bus.h"
-
-namespace CLI {
-class App;
-}
+#include "common/service/command_line.h"
 
 namespace evit {
 
@@ -32,7 +29,7 @@ struct ServiceOptions {
   std::string prefix;   // of all channels
   bool lossless = false;
 };
-void AddServiceOptions(CLI::App* app, ServiceOptions* options, bool with_flow = true);
+void AddServiceOptions(CommandLine* line, ServiceOptions* options, bool with_flow = true);
 
 /// The URL to open: as said above.
 std::string ResolveLcmUrl(const std::string& option);

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <stdexcept>
 #include <thread>
@@ -147,10 +146,11 @@ TEST(ServiceOptions, UrlOfOptionThenEnvironmentThenDefault) {
   setenv("LCM_DEFAULT_URL", "udpm://239.1.1.1:7000", 1);
   EXPECT_EQ(ResolveLcmUrl(""), "udpm://239.1.1.1:7000");
   unsetenv("LCM_DEFAULT_URL");
-  CLI::App app;
+  CommandLine line("");
   ServiceOptions options;
-  AddServiceOptions(&app, &options);
-  app.parse("--prefix a/ --lossless --lcm-url memq://");
+  AddServiceOptions(&line, &options);
+  const char* const arguments[] = {"prog", "--prefix", "a/", "--lossless", "--lcm-url", "memq://"};
+  EXPECT_FALSE(line.Parse(6, arguments));
   EXPECT_EQ(options.prefix, "a/");
   EXPECT_TRUE(options.lossless);
   EXPECT_EQ(options.lcm_url, "memq://");

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 
 #include "common/config/rig_file.h"
 #include "common/config/settings_file.h"
@@ -7,19 +6,14 @@
 namespace {
 
 int Main(int argc, char** argv) {
-  CLI::App app{
+  evit::CommandLine line{
       "Makes keyframes (time surfaces with the IMU samples between them) from events and IMU (LCM service)."};
   std::string rig, config;
   evit::ServiceOptions options;
-  app.add_option("--rig", rig, "Calibration of camera and IMU (text protobuf)")->required();
-  app.add_option("--config", config,
-                 "Tracker settings (text protobuf; default: EVIT's, see evit config show)");
-  evit::AddServiceOptions(&app, &options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error);
-  }
+  line.Add("--rig", &rig, "Calibration of camera and IMU (text protobuf)").Required();
+  line.Add("--config", &config, "Tracker settings (text protobuf; default: EVIT's, see evit config show)");
+  evit::AddServiceOptions(&line, &options);
+  if (const auto code = line.Parse(argc, argv)) return *code;
   evit::FrameBuilder::Settings settings;
   settings.rig = evit::LoadRig(rig);
   const evit::PipelineOptions pipeline = evit::LoadOptions(config);

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <optional>
 #include <stdexcept>
@@ -21,28 +20,21 @@ std::string Describe(const evit::LoadedMap& loaded, const evit::MapSummary& summ
 }
 
 int Main(int argc, char** argv) {
-  CLI::App app{
+  evit::CommandLine line{
       "Serves what a camera sees of a map: points of a semi-dense one, views of a photometric one "
       "(LCM service)."};
   std::string path, photometric_path;
   evit::DenoiseSettings denoise;
   evit::ServiceOptions options;
-  app.add_option("--map", path, "Point cloud: PCD, PLY or text, metres, z up");
-  app.add_option("--photometric-map", photometric_path,
-                 "PLY with intensities (evit map photometric), for EVPT");
-  app.add_option("--denoise-radius", denoise.radius,
-                 "Points move onto the line through their neighbours within this, m; 0: as read")
-      ->check(CLI::Range(0.0, 0.2))
-      ->capture_default_str();
-  evit::AddServiceOptions(&app, &options, false);
-  try {
-    app.parse(argc, argv);
-    if (path.empty() && photometric_path.empty()) {
-      throw CLI::RequiredError("--map or --photometric-map");
-    }
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error);
-  }
+  line.Add("--map", &path, "Point cloud: PCD, PLY or text, metres, z up");
+  line.Add("--photometric-map", &photometric_path, "PLY with intensities (evit map photometric), for EVPT");
+  line.Add("--denoise-radius", &denoise.radius,
+           "Points move onto the line through their neighbours within this, m; 0: as read")
+      .Range(0.0, 0.2)
+      .ShowDefault();
+  evit::AddServiceOptions(&line, &options, false);
+  if (const auto code = line.Parse(argc, argv)) return *code;
+  if (path.empty() && photometric_path.empty()) return line.Missing("--map or --photometric-map");
   evit::LoadedMap loaded;
   std::string description;
   if (!path.empty()) {

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 
 #include "common/config/rig_file.h"
 #include "common/config/settings_file.h"
@@ -24,24 +23,18 @@ evit::PhotometricTrackerOptions PhotometricPart(const evit::PipelineOptions& o) 
 }
 
 int Main(int argc, char** argv) {
-  CLI::App app{"Tracks the body's 6-DoF pose in a known map from keyframes and IMU (LCM service)."};
+  evit::CommandLine line{"Tracks the body's 6-DoF pose in a known map from keyframes and IMU (LCM service)."};
   std::string rig, config, pose, checkpoint;
   evit::ServiceOptions options;
-  app.add_option("--rig", rig, "Calibration of camera and IMU (text protobuf)")->required();
-  app.add_option("--config", config,
-                 "Tracker settings (text protobuf; default: EVIT's, see evit config show)");
-  app.add_option("--initial-pose", pose, "Body in the map at the first keyframe: \"x y z qx qy qz qw\"")
-      ->required();
-  app.add_option(
-      "--checkpoint", checkpoint,
-      "File with the newest state, to continue from after a restart (real time; delete it to start "
-      "from the initial pose)");
-  evit::AddServiceOptions(&app, &options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error);
-  }
+  line.Add("--rig", &rig, "Calibration of camera and IMU (text protobuf)").Required();
+  line.Add("--config", &config, "Tracker settings (text protobuf; default: EVIT's, see evit config show)");
+  line.Add("--initial-pose", &pose, "Body in the map at the first keyframe: \"x y z qx qy qz qw\"")
+      .Required();
+  line.Add("--checkpoint", &checkpoint,
+           "File with the newest state, to continue from after a restart (real time; delete it to start "
+           "from the initial pose)");
+  evit::AddServiceOptions(&line, &options);
+  if (const auto code = line.Parse(argc, argv)) return *code;
   const evit::PipelineOptions pipeline = evit::LoadOptions(config);
   const evit::WindowOptimizer::Settings settings{evit::LoadRig(rig), TrackerPart(pipeline),
                                                  evit::ParsePose("--initial-pose", pose), options.lossless,
