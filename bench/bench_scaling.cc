@@ -9,6 +9,7 @@
 #include "common/events/keyframe_builder.h"
 #include "common/wire/event_wire.h"
 #include "tests/helpers/clouds.h"
+#include "tests/helpers/paths.h"
 
 namespace evit::bench {
 namespace {
@@ -21,8 +22,8 @@ void EventRate(benchmark::State& state) {
     packets.emplace_back();
     EncodeTo(packet, &packets.back());
   }
-  const Rig rig = LoadRig(EVIT_SOURCE_DIR "/config/vector/rig.textproto");
-  const PipelineOptions pipeline = LoadOptions(EVIT_SOURCE_DIR "/config/tracker.textproto");
+  const Rig rig = LoadRig(test::SourcePath("config/vector/rig.textproto"));
+  const PipelineOptions pipeline = LoadOptions(test::SourcePath("config/tracker.textproto"));
   TrackerFeedback feedback;
   feedback.mode = TrackerFeedback::Mode::kTracking;
   feedback.image_speed = 300;

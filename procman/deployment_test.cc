@@ -7,6 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include "tests/helpers/paths.h"
+
 namespace evit::procman {
 namespace {
 
@@ -134,7 +136,7 @@ auto Steps(const Deployment& d) {
 }
 
 TEST(DeploymentTest, ShippedDialectsAgree) {
-  const std::string folder = EVIT_SOURCE_DIR "/procman/";
+  const std::string folder = test::SourcePath("procman/");
   const Deployment procman = LoadDeployment(folder + "evit.procman");
   const Deployment bot_procman = LoadDeployment(folder + "evit.pmd");
   EXPECT_EQ(Commands(bot_procman), Commands(procman));
@@ -142,7 +144,7 @@ TEST(DeploymentTest, ShippedDialectsAgree) {
 }
 
 TEST(DeploymentTest, ShippedServicesRestart) {
-  const Deployment shipped = LoadDeployment(EVIT_SOURCE_DIR "/procman/evit.procman");
+  const Deployment shipped = LoadDeployment(test::SourcePath("procman/evit.procman"));
   for (const char* service : {"map_server", "window_optimizer", "frame_builder", "log_replay"}) {
     ASSERT_NE(shipped.Find(service), nullptr) << service;
     EXPECT_TRUE(shipped.Find(service)->auto_respawn);

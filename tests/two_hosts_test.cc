@@ -12,6 +12,7 @@
 #include "common/bus/lcm_bus.h"
 #include "common/evaluation/trajectory_error.h"
 #include "common/service/child_process.h"
+#include "tests/helpers/paths.h"
 #include "tools/run/recorder.h"
 
 namespace evit {
@@ -20,7 +21,7 @@ namespace {
 using std::chrono::seconds;
 namespace fs = std::filesystem;
 
-const std::string kLogs = EVIT_SOURCE_DIR "/logs/";
+const std::string kLogs = test::SourcePath("logs/");
 constexpr char kUrl[] =
     "udpm://239.255.76.67:7667?ttl=1&recv_buf_size=4194304";  // one hop: to the other host
 
@@ -55,7 +56,7 @@ class TwoHostsTest : public ::testing::Test {
   // A service on this host, or on the other one.
   std::unique_ptr<ChildProcess> Start(bool here, const std::string& name,
                                       std::vector<std::string> arguments) const {
-    std::vector<std::string> command{EVIT_BIN_DIR "/" + name};
+    std::vector<std::string> command{test::ProgramPath(name)};
     if (!here) command.insert(command.begin(), {"/usr/bin/nsenter", "-t", pid_, "-n"});
     command.insert(command.end(), arguments.begin(), arguments.end());
     command.insert(command.end(), {"--lcm-url", kUrl});
@@ -67,7 +68,7 @@ class TwoHostsTest : public ::testing::Test {
 };
 
 TEST_F(TwoHostsTest, TracksAcrossTheCable) {
-  const std::string rig = kLogs + "rig.textproto", config = EVIT_SOURCE_DIR "/config/tracker.textproto";
+  const std::string rig = kLogs + "rig.textproto", config = test::SourcePath("config/tracker.textproto");
   const Trajectory truth = ReadTum(kLogs + "sample_truth.tum");
   const std::string line = TumLine(truth.front());
   const auto bus = OpenLcmBus(kUrl);

@@ -16,6 +16,7 @@
 
 #include "common/evaluation/covariance_file.h"
 #include "common/evaluation/trajectory_error.h"
+#include "tests/helpers/paths.h"
 
 namespace evit {
 namespace {
@@ -23,8 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-const std::string kLogs = std::string(EVIT_SOURCE_DIR) + "/logs/";
-const std::string kEvit = std::string(EVIT_BIN_DIR) + "/evit";
+const std::string kLogs = test::SourcePath("logs/");
+const std::string kEvit = test::ProgramPath("evit");
 
 struct Result {
   int code = -1;
@@ -219,9 +220,8 @@ TEST_F(WholeSystemTest, SurvivesOptimizerCrashInRealTime) { KillInRealTime("wind
 
 TEST_F(WholeSystemTest, LcmToolsCanPlayAndRecord) {
   // The stock player feeds the three other services; the stock logger records their messages.
-  const std::string bin = std::string(EVIT_BIN_DIR) + "/",
-                    rig = " --rig " + kLogs + "rig.textproto --config " + std::string(EVIT_SOURCE_DIR) +
-                          "/config/tracker.textproto";
+  const std::string bin = test::ProgramPath(""), rig = " --rig " + kLogs + "rig.textproto --config " +
+                                                       test::SourcePath("config/tracker.textproto");
   const Trajectory truth = ReadTum(kLogs + "sample_truth.tum");
   const std::string line = TumLine(truth.front());
   const std::string url = "'udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304'";

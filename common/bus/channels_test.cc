@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "evit/messages.hpp"
+#include "tests/helpers/paths.h"
 
 namespace evit {
 namespace {
@@ -39,7 +40,7 @@ struct Row {
 };
 
 std::vector<Row> Table() {
-  std::istringstream text(ReadFile(fs::path(EVIT_SOURCE_DIR) / "docs" / "channels.md"));
+  std::istringstream text(ReadFile(test::SourcePath("docs/channels.md")));
   std::vector<Row> rows;
   for (std::string line; std::getline(text, line);) {
     std::smatch m;
@@ -51,14 +52,14 @@ std::vector<Row> Table() {
 
 /// The channel names as the header's initialisers spell them: a new one cannot be forgotten here.
 std::set<std::string> ChannelsOfHeader() {
-  const auto names = Matches(ReadFile(fs::path(EVIT_SOURCE_DIR) / "common" / "bus" / "channels.h"),
-                             R"(prefix \+ "([A-Z_]+)\")");
+  const auto names =
+      Matches(ReadFile(test::SourcePath("common/bus/channels.h")), R"(prefix \+ "([A-Z_]+)\")");
   return {names.begin(), names.end()};
 }
 
 std::set<std::string> MessageTypes() {
   std::set<std::string> types;
-  for (const auto& file : fs::directory_iterator(fs::path(EVIT_SOURCE_DIR) / "lcmtypes")) {
+  for (const auto& file : fs::directory_iterator(test::SourcePath("lcmtypes"))) {
     if (file.path().extension() == ".lcm") types.insert(file.path().stem());
   }
   return types;
@@ -76,7 +77,7 @@ TEST(ChannelsDocument, NamesOnlyTypesThatExistAndAllOfThem) {
   const std::set<std::string> types = MessageTypes();
   std::set<std::string> mentioned;
   for (const Row& row : Table()) mentioned.insert(row.type);
-  const std::string text = ReadFile(fs::path(EVIT_SOURCE_DIR) / "docs" / "channels.md");
+  const std::string text = ReadFile(test::SourcePath("docs/channels.md"));
   for (const std::string& type : Matches(text, R"(`(\w+_t)`)")) mentioned.insert(type);
   EXPECT_EQ(mentioned, types);
 }

@@ -8,6 +8,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "tests/helpers/paths.h"
 #include "tests/helpers/sample_messages.h"
 
 namespace evit {
@@ -137,8 +138,8 @@ TYPED_TEST(CodecTest, RandomBytesAreRefused) {
 
 TYPED_TEST(CodecTest, AValidSeedForFuzzingIsKept) {
   const std::string type = TypeParam::getTypeName();
-  const std::string path =
-      EVIT_SOURCE_DIR "/tests/fuzz/corpus/messages/" + type.substr(0, type.size() - std::string("_t").size());
+  const std::string path = test::SourcePath("tests/fuzz/corpus/messages/" +
+                                            type.substr(0, type.size() - std::string("_t").size()));
   std::ifstream file(path, std::ios::binary);
   const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file),
                                         std::istreambuf_iterator<char>()};

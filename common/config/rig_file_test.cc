@@ -5,12 +5,14 @@
 
 #include <filesystem>
 
+#include "tests/helpers/paths.h"
+
 namespace evit {
 namespace {
 
 TEST(RigFile, ReadsBackAsItWasWritten) {
   const std::string path = ::testing::TempDir() + "/rig_" + std::to_string(getpid()) + ".textproto";
-  Rig rig = LoadRig(EVIT_SOURCE_DIR "/config/vector/rig.textproto");
+  Rig rig = LoadRig(test::SourcePath("config/vector/rig.textproto"));
   rig.camera_time_offset = -2'400;
   for (const auto model : {Camera::Model::kPlumbBob, Camera::Model::kEquidistant}) {
     rig.camera.model = model;

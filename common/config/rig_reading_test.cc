@@ -3,13 +3,14 @@
 
 #include "common/config/rig_file.h"
 #include "tests/helpers/config_files.h"
+#include "tests/helpers/paths.h"
 
 namespace evit {
 namespace {
 
 using test::Edited;
 
-const std::string kRig = EVIT_SOURCE_DIR "/config/vector/rig.textproto";
+const std::string kRig = test::SourcePath("config/vector/rig.textproto");
 
 class RigReading : public test::ConfigFilesTest {
  protected:
@@ -22,7 +23,7 @@ class RigReading : public test::ConfigFilesTest {
 
 TEST_F(RigReading, ShippedFilesLoad) {
   EXPECT_NO_THROW(LoadRig(kRig));
-  EXPECT_NO_THROW(LoadRig(EVIT_SOURCE_DIR "/logs/rig.textproto"));
+  EXPECT_NO_THROW(LoadRig(test::SourcePath("logs/rig.textproto")));
 }
 
 TEST_F(RigReading, VectorRigHasTheFiguresOfVectorsCalibration) {

@@ -5,6 +5,7 @@
 
 #include "common/config/settings_text.h"
 #include "tests/helpers/config_files.h"
+#include "tests/helpers/paths.h"
 
 namespace evit {
 namespace {
@@ -14,8 +15,8 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const std::string kConfig = EVIT_SOURCE_DIR "/config/";
-const std::string kEarlier = EVIT_SOURCE_DIR "/common/config/testdata/";
+const std::string kConfig = test::SourcePath("config/");
+const std::string kEarlier = test::SourcePath("common/config/testdata/");
 
 class SettingsFile : public test::ConfigFilesTest {
  protected:

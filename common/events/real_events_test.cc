@@ -9,6 +9,7 @@
 #include "common/events/keyframe_builder.h"
 #include "common/events/surface_renderer.h"
 #include "tests/helpers/event_streams.h"
+#include "tests/helpers/paths.h"
 
 namespace evit {
 namespace {
@@ -18,10 +19,9 @@ constexpr int kWidth = 240, kHeight = 180;
 class RealEventsTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    const char* const shared = std::getenv("EVIT_SHARED_DATA");
-    const std::string folder = shared != nullptr ? shared : EVIT_SOURCE_DIR "/../shared/data";
-    std::ifstream file(folder + "/slider_depth/events_chunk.txt");
-    if (!file) GTEST_SKIP() << "no slider_depth/events_chunk.txt in " << folder;
+    const std::string folder = test::RecordingsPath("slider_depth");
+    std::ifstream file(folder + "/events_chunk.txt");
+    if (!file) GTEST_SKIP() << "no events_chunk.txt in " << folder;
     double t = 0;
     for (int x = 0, y = 0, p = 0; file >> t >> x >> y >> p;) {
       events_.push_back(std::llround(t * 1e6), x, y, p);

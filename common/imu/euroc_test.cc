@@ -11,6 +11,7 @@
 
 #include "common/imu/preintegration.h"
 #include "common/imu/propagation.h"
+#include "tests/helpers/paths.h"
 
 namespace evit {
 namespace {
@@ -43,9 +44,7 @@ std::vector<std::vector<double>> ReadRows(const std::string& path, std::vector<U
 class EurocTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    const char* const shared = std::getenv("EVIT_SHARED_DATA");
-    const std::string folder =
-        std::string(shared != nullptr ? shared : EVIT_SOURCE_DIR "/../shared/data") + "/euroc";
+    const std::string folder = test::RecordingsPath("euroc");
     if (!std::ifstream(folder + "/imu.csv")) GTEST_SKIP() << "no imu.csv in " << folder;
     std::vector<Utime> stamps;
     const auto readings = ReadRows(folder + "/imu.csv", &stamps);

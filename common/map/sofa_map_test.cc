@@ -10,6 +10,7 @@
 #include "common/evaluation/trajectory.h"
 #include "common/map/map_file.h"
 #include "tests/helpers/clouds.h"
+#include "tests/helpers/paths.h"
 
 namespace evit {
 namespace {
@@ -17,9 +18,7 @@ namespace {
 class SofaMapTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    const char* const shared = std::getenv("EVIT_SHARED_DATA");
-    folder_ =
-        std::string(shared != nullptr ? shared : EVIT_SOURCE_DIR "/../shared/data") + "/vector/sofa_fast";
+    folder_ = test::RecordingsPath("vector/sofa_fast");
     if (!std::ifstream(folder_ + "/map.txt")) GTEST_SKIP() << "no map.txt in " << folder_;
     loaded_ = LoadMap(folder_ + "/map.txt");
     poses_ = ReadTum(folder_ + "/poses_map_event.tum");

@@ -11,20 +11,21 @@
 
 #include "common/bus/lcm_bus.h"
 #include "tests/helpers/frame_builder_peers.h"
+#include "tests/helpers/paths.h"
 
 namespace evit {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
-constexpr char kRig[] = EVIT_SOURCE_DIR "/config/vector/rig.textproto";
-constexpr char kConfig[] = EVIT_SOURCE_DIR "/config/tracker.textproto";
+const std::string kRig = test::SourcePath("config/vector/rig.textproto");
+const std::string kConfig = test::SourcePath("config/tracker.textproto");
 
 /// The program, killed with this.
 class Program {
  public:
   explicit Program(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), EVIT_BIN_DIR "/frame_builder");
+    arguments.insert(arguments.begin(), test::ProgramPath("frame_builder"));
     std::vector<char*> argv;
     argv.reserve(arguments.size() + 1);
     for (std::string& a : arguments) argv.push_back(a.data());

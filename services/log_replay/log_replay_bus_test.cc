@@ -10,13 +10,14 @@
 #include "common/service/credit_sender.h"
 #include "common/service/sequence_counter.h"
 #include "tests/helpers/bus_messages.h"
+#include "tests/helpers/paths.h"
 #include "tests/helpers/replay_recording.h"
 
 namespace evit {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr char kProgram[] = EVIT_BIN_DIR "/log_replay";
+const std::string kProgram = test::ProgramPath("log_replay");
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 
 /// A consumer as lossless replay expects it: takes exactly the next message of each stream, drops all else.

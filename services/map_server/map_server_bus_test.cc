@@ -8,13 +8,14 @@
 #include "common/service/child_process.h"
 #include "tests/helpers/map_asker.h"
 #include "tests/helpers/map_files.h"
+#include "tests/helpers/paths.h"
 
 namespace evit {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 using ::testing::HasSubstr;
-constexpr char kProgram[] = EVIT_BIN_DIR "/map_server";
+const std::string kProgram = test::ProgramPath("map_server");
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 
 class MapServerBusTest : public ::testing::Test {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "tests/helpers/paths.h"
 #include "tools/paper/paper_results.h"
 
 namespace evit {
@@ -35,7 +36,7 @@ class TestFolder {
 };
 
 /// The configuration shipped, loaded.
-inline paper::Paper ShippedPaper() { return paper::LoadPaper(EVIT_SOURCE_DIR "/config/paper.textproto"); }
+inline paper::Paper ShippedPaper() { return paper::LoadPaper(test::SourcePath("config/paper.textproto")); }
 
 /// A run with the same error under every alignment: `reached` milestones, the k-th with k cm more than the
 /// first.

@@ -9,6 +9,7 @@
 #include "common/bus/codec.h"
 #include "common/bus/log_file.h"
 #include "common/config/rig_file.h"
+#include "tests/helpers/paths.h"
 #include "tests/helpers/sample_messages.h"
 #include "tools/calibration/recorded_motion.h"
 
@@ -19,7 +20,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-Rig Before() { return LoadRig(std::string(EVIT_SOURCE_DIR) + "/config/vector/rig.textproto"); }
+Rig Before() { return LoadRig(test::SourcePath("config/vector/rig.textproto")); }
 
 CameraImuCalibration Found() {
   CameraImuCalibration c;

@@ -7,6 +7,7 @@
 #include "common/config/settings_file.h"
 #include "common/config/settings_text.h"
 #include "tests/helpers/config_files.h"
+#include "tests/helpers/paths.h"
 
 namespace evit::commands {
 namespace {
@@ -19,7 +20,7 @@ struct Result {
 };
 
 Result Config(const std::string& arguments) {
-  std::FILE* pipe = ::popen((EVIT_BIN_DIR "/evit config " + arguments + " 2>&1").c_str(), "r");
+  std::FILE* pipe = ::popen((test::ProgramPath("evit") + " config " + arguments + " 2>&1").c_str(), "r");
   Result result{-1, ""};
   if (pipe == nullptr) return result;
   std::array<char, 4096> buffer{};
@@ -50,7 +51,7 @@ TEST_F(ConfigCommand, ChecksFiles) {
   const Result result = Config("check " + Write("bad.textproto", "evt { }\npoint { }"));
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.output, HasSubstr("bad.textproto:2:1: point: no such key; did you mean points?"));
-  EXPECT_EQ(Config("check --rig " EVIT_SOURCE_DIR "/logs/rig.textproto").code, 0);
+  EXPECT_EQ(Config("check --rig " + test::SourcePath("logs/rig.textproto")).code, 0);
   EXPECT_EQ(Config("check").code, 1);
 }
 

@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/helpers/map_files.h"
+#include "tests/helpers/paths.h"
 
 namespace evit::commands {
 namespace {
@@ -23,7 +24,7 @@ struct Result {
 };
 
 Result Map(const std::string& arguments) {
-  std::FILE* pipe = ::popen((EVIT_BIN_DIR "/evit map " + arguments + " 2>&1").c_str(), "r");
+  std::FILE* pipe = ::popen((test::ProgramPath("evit") + " map " + arguments + " 2>&1").c_str(), "r");
   Result result{-1, ""};
   if (pipe == nullptr) return result;
   std::array<char, 4096> buffer{};

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/helpers/paper.h"
+#include "tests/helpers/paths.h"
 #include "tools/paper/text_files.h"
 
 namespace evit::commands {
@@ -16,7 +17,7 @@ using ::testing::HasSubstr;
 
 TEST(PaperCommand, ProducesTablesAndFiguresOnce) {
   const TestFolder folder("paper_command");
-  const std::string config = EVIT_SOURCE_DIR "/config/";
+  const std::string config = test::SourcePath("config/");
   folder.Write("paper.textproto", "simulated_s: 2.5 quick_s: 2 seeds: 1 rig: \"" + config +
                                       "vector/rig.textproto\"\n"
                                       "method { id: \"evit\" name: \"EVIT\" frequency: \"(dyn)\" config: \"" +
@@ -26,8 +27,9 @@ TEST(PaperCommand, ProducesTablesAndFiguresOnce) {
                                       "sequence { name: \"desk_normal\" scene: \"desk\" fast: false\n"
                                       "  simulated { builtin: \"builtin:desk_normal\" } }\n");
   const auto run = [&] {
-    const std::string command = EVIT_BIN_DIR "/evit paper --config " + (folder / "paper.textproto") +
-                                " --out " + (folder / "out") + " >" + (folder / "said") + " 2>&1";
+    const std::string command = test::ProgramPath("evit") + " paper --config " +
+                                (folder / "paper.textproto") + " --out " + (folder / "out") + " >" +
+                                (folder / "said") + " 2>&1";
     return std::system(command.c_str());
   };
   ASSERT_EQ(run(), 0) << paper::ReadText(folder / "said");
@@ -47,8 +49,8 @@ TEST(PaperCommand, ProducesTablesAndFiguresOnce) {
 
 TEST(PaperCommand, BadSelectionFailsBeforeAnyWork) {
   const TestFolder folder("paper_command_wrong");
-  const std::string command = EVIT_BIN_DIR "/evit paper --only nowhere --out " + (folder / "out") + " >" +
-                              (folder / "said") + " 2>&1";
+  const std::string command = test::ProgramPath("evit") + " paper --only nowhere --out " + (folder / "out") +
+                              " >" + (folder / "said") + " 2>&1";
   EXPECT_NE(std::system(command.c_str()), 0);
   EXPECT_THAT(paper::ReadText(folder / "said"), HasSubstr("--only nowhere"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));

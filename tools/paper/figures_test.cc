@@ -8,6 +8,7 @@
 #include "common/bus/codec.h"
 #include "common/config/rig_file.h"
 #include "tests/helpers/paper.h"
+#include "tests/helpers/paths.h"
 #include "tests/helpers/sample_messages.h"
 #include "tools/paper/motion_model_figure.h"
 #include "tools/paper/trajectory_figure.h"
@@ -18,7 +19,7 @@ namespace {
 
 constexpr Utime kBegin = 1'642'661'138'000'000, kInterval = 20'000;
 
-Rig TestRig() { return LoadRig(EVIT_SOURCE_DIR "/config/vector/rig.textproto"); }
+Rig TestRig() { return LoadRig(test::SourcePath("config/vector/rig.textproto")); }
 
 // The body at a time: the camera looks along the map's x axis, moves along y with growing speed.
 SE3 BodyAt(const Rig& rig, double s) {
@@ -164,8 +165,8 @@ TEST(Figures, TrajectoriesEndWhereAMethodIsLost) {
 TEST(Figures, UndrawableFigureGivesTheReason) {
   const TestFolder folder("paper_no_figures");
   PaperOptions options;
-  options.config = EVIT_SOURCE_DIR "/config/paper.textproto";
-  options.programs = EVIT_BIN_DIR;
+  options.config = test::SourcePath("config/paper.textproto");
+  options.programs = test::ProgramPath("");
   options.out = folder / "out";
   for (const Figure& figure : DrawFigures(folder / "figures", MakePlan(options))) {
     EXPECT_TRUE(figure.file.empty());

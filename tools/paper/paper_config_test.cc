@@ -7,6 +7,7 @@
 #include "common/config/settings_file.h"
 #include "common/config/settings_text.h"
 #include "tests/helpers/paper.h"
+#include "tests/helpers/paths.h"
 #include "tools/paper/text_files.h"
 
 namespace evit::paper {
@@ -20,7 +21,7 @@ class PaperConfig : public ::testing::Test {
  protected:
   // The shipped configuration with one text in place of another.
   std::string Changed(const std::string& from, const std::string& to) {
-    std::string text = ReadText(EVIT_SOURCE_DIR "/config/paper.textproto");
+    std::string text = ReadText(test::SourcePath("config/paper.textproto"));
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     return folder_.Write("paper.textproto", text.replace(at, from.size(), to));
@@ -65,7 +66,7 @@ TEST_F(PaperConfig, ErrorsNameFileAndKey) {
 
 TEST_F(PaperConfig, MethodsChangeOnlyWhatTheySay) {
   paper::Method method;
-  method.set_config(EVIT_SOURCE_DIR "/config/tracker.textproto");
+  method.set_config(test::SourcePath("config/tracker.textproto"));
   const std::string plain = TrackerText(method);
   method.set_fixed_rate_hz(30);
   method.set_motion_model(config::Evit::CONSTANT_VELOCITY);
@@ -79,7 +80,7 @@ TEST_F(PaperConfig, MethodsChangeOnlyWhatTheySay) {
 
 TEST_F(PaperConfig, MotionModelsAreForEvit) {
   paper::Method method;
-  method.set_config(EVIT_SOURCE_DIR "/config/evt.textproto");
+  method.set_config(test::SourcePath("config/evt.textproto"));
   method.set_motion_model(config::Evit::IMU);
   EXPECT_THROW(TrackerText(method), ConfigError);
 }

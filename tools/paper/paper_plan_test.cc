@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tests/helpers/paper.h"
+#include "tests/helpers/paths.h"
 #include "tools/paper/index.h"
 #include "tools/paper/selection.h"
 
@@ -19,8 +20,8 @@ using ::testing::ThrowsMessage;
 class PlanTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    options_.config = EVIT_SOURCE_DIR "/config/paper.textproto";
-    options_.programs = EVIT_BIN_DIR;
+    options_.config = test::SourcePath("config/paper.textproto");
+    options_.programs = test::ProgramPath("");
     options_.out = folder_ / "out";
   }
   // Names of the jobs that begin with `what`.
@@ -85,7 +86,7 @@ TEST_F(PlanTest, KeysChangeWithWhatTheyDependOn) {
   const auto before = JobsOf(MakePlan(options_));
   EXPECT_EQ(before[1].key, JobsOf(MakePlan(options_))[1].key);
   // The same tracker, but for one figure.
-  std::filesystem::copy(EVIT_SOURCE_DIR "/config", folder_ / "config",
+  std::filesystem::copy(test::SourcePath("config"), folder_ / "config",
                         std::filesystem::copy_options::recursive);
   options_.config = folder_ / "config/paper.textproto";
   std::ifstream in(folder_ / "config/tracker.textproto");

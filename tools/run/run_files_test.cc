@@ -9,6 +9,7 @@
 
 #include "common/bus/log_file.h"
 #include "common/map/map_file.h"
+#include "tests/helpers/paths.h"
 #include "tests/helpers/sample_messages.h"
 #include "tools/pictures/consistency_plot.h"
 #include "tools/pictures/run_plot.h"
@@ -32,8 +33,8 @@ class RunFilesTest : public ::testing::Test {
     std::filesystem::create_directories(folder_);
     job_.log = Path("a.lcmlog");
     job_.map = Path("map.pcd");
-    job_.rig = std::string(EVIT_SOURCE_DIR) + "/config/vector/rig.textproto";
-    job_.config = std::string(EVIT_SOURCE_DIR) + "/config/tracker.textproto";
+    job_.rig = test::SourcePath("config/vector/rig.textproto");
+    job_.config = test::SourcePath("config/tracker.textproto");
     job_.out = Path("out");
     job_.truth = job_.initial_from = Path("truth.tum");
     WriteLog(0);

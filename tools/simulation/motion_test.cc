@@ -10,6 +10,7 @@
 #include <set>
 
 #include "common/config/rig_file.h"
+#include "tests/helpers/paths.h"
 #include "tools/simulation/builtin_motion.h"
 #include "tools/simulation/load_motion.h"
 #include "tools/simulation/motion_speed.h"
@@ -229,11 +230,9 @@ TEST(LoadMotion, DetectsMarkerPoses) {
 
 // The recordings themselves, and what is simulated from them.
 TEST(LoadMotion, DetectsTheFrameOfRealFiles) {
-  const char* shared = std::getenv("EVIT_SHARED_DATA");
-  const fs::path data = shared ? fs::path(shared) : fs::path(EVIT_SOURCE_DIR) / "../shared/data";
-  const fs::path folder = data / "vector/groundtruth";
+  const fs::path folder = test::RecordingsPath("vector/groundtruth");
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not here; set EVIT_SHARED_DATA";
-  const Rig rig = LoadRig(EVIT_SOURCE_DIR "/config/vector/rig.textproto");
+  const Rig rig = LoadRig(test::SourcePath("config/vector/rig.textproto"));
   const Scene scene = MakeRoom(1);
   for (const char* name : {"robot_normal", "mountain_normal", "sofa_fast"}) {
     MotionSettings settings;

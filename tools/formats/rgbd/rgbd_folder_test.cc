@@ -9,6 +9,8 @@
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
 
+#include "tests/helpers/paths.h"
+
 namespace evit::formats {
 namespace {
 
@@ -87,10 +89,7 @@ TEST_F(RgbdFolderTest, ErrorsNameFileAndProblem) {
 
 // Real images, where they are there.
 TEST(RgbdFolderReal, HoloLensViewsMakeAMap) {
-  const char* shared = std::getenv("EVIT_SHARED_DATA");
-  const std::string path =
-      (shared != nullptr ? std::string(shared) : std::string(EVIT_SOURCE_DIR) + "/../shared/data") +
-      "/hololens";
+  const std::string path = test::RecordingsPath("hololens");
   if (!fs::exists(path + "/poses.txt")) GTEST_SKIP() << "no " << path << "; set EVIT_SHARED_DATA";
   const RgbdFolder folder(path);
   ASSERT_EQ(folder.size(), 60u);
