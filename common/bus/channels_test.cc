@@ -40,7 +40,7 @@ struct Row {
 };
 
 std::vector<Row> Table() {
-  std::istringstream text(ReadFile(test::SourcePath("docs/channels.md")));
+  std::istringstream text(ReadFile(test::SourcePath("docs/reference/channels.md")));
   std::vector<Row> rows;
   for (std::string line; std::getline(text, line);) {
     std::smatch m;
@@ -77,7 +77,7 @@ TEST(ChannelsDocument, NamesOnlyTypesThatExistAndAllOfThem) {
   const std::set<std::string> types = MessageTypes();
   std::set<std::string> mentioned;
   for (const Row& row : Table()) mentioned.insert(row.type);
-  const std::string text = ReadFile(test::SourcePath("docs/channels.md"));
+  const std::string text = ReadFile(test::SourcePath("docs/reference/channels.md"));
   for (const std::string& type : Matches(text, R"(`(\w+_t)`)")) mentioned.insert(type);
   EXPECT_EQ(mentioned, types);
 }
