@@ -11,7 +11,8 @@ std::string DropText(const DropCounts& dropped, const std::string& what) {
   for (const auto& [count, reason] :
        {std::pair(dropped.disorder, "not later than the one before"),
         std::pair(dropped.invalid, "not a number, or no rotation"),
-        std::pair(dropped.outside, "outside the sensor (is the image size right?)")}) {
+        std::pair(dropped.outside, "outside the sensor (is the image size right?)"),
+        std::pair(dropped.unstamped, "before the stream's first time stamp")}) {
     if (count > 0) reasons += (reasons.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
   }
   return std::to_string(dropped.total()) + " " + what + " dropped: " + reasons;

@@ -37,7 +37,13 @@ void CheckHole(const std::string& name, Utime before, Utime after) {
       " s: a damaged time stamp, or several recordings; import each recording separately");
 }
 
+double Rate(const std::vector<ImuSample>& imu) {
+  if (imu.size() < 2) return 0;
+  return static_cast<double>(imu.size() - 1) / ToSeconds(imu.back().t - imu.front().t);
+}
+
 void CheckImu(const ImportStreams& streams, Utime first_event) {
+  if (streams.imu_name.empty()) return;
   if (streams.imu.size() < 2) throw std::runtime_error(streams.imu_name + ": holds no IMU samples");
   for (std::size_t k = 1; k < streams.imu.size(); ++k)
     CheckHole(streams.imu_name, streams.imu[k - 1].t, streams.imu[k].t);
@@ -74,14 +80,15 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* events, ImportS
   }
   const Utime first = piece.t.front();
   CheckImu(streams, first);
-  Utime begin = std::min(first, streams.imu.front().t), end = std::numeric_limits<Utime>::max();
+  const bool has_imu = !streams.imu_name.empty();
+  Utime begin = has_imu ? std::min(first, streams.imu.front().t) : first, end = std::numeric_limits<Utime>::max();
   if (target.seconds) {
     begin = first + static_cast<Utime>(target.seconds->first * 1e6);
     end = first + static_cast<Utime>(target.seconds->second * 1e6);
   }
   Clip(&streams.imu, begin, end);
   Clip(&streams.truth, begin, end);
-  if (streams.imu.size() < 2)
+  if (has_imu && streams.imu.size() < 2)
     throw std::runtime_error("the part asked for by --seconds holds no IMU samples");
 
   PartFile part{target.out + ".part"};
@@ -106,18 +113,21 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* events, ImportS
                               : events->share());
     }
     if (summary.n_events == 0) throw std::runtime_error("the part asked for by --seconds holds no events");
-    if (streams.imu.front().t > last) {
+    if (has_imu && streams.imu.front().t > last) {
       throw std::runtime_error(
           streams.imu_name +
           ": begins after the last event: the files are from different sequences or clocks");
     }
-    writer.Close(std::max(last, streams.imu.back().t));
+    writer.Close(has_imu ? std::max(last, streams.imu.back().t) : last);
     summary.n_packets = writer.n_packets();
   }
   PutInPlace(&part, target.out, streams.truth);
   summary.n_imu = static_cast<std::int64_t>(streams.imu.size());
   summary.n_truth = static_cast<std::int64_t>(streams.truth.size());
   summary.seconds = ToSeconds(last - begin);
+  summary.first_event = std::max(first, begin);
+  summary.last_event = last;
+  summary.imu_rate_hz = Rate(streams.imu);
   summary.dropped_events = events->dropped();
   summary.dropped_imu = streams.dropped_imu;
   summary.dropped_truth = streams.dropped_truth;

@@ -24,13 +24,15 @@ struct ImportTarget {
 struct ImportStreams {
   std::vector<ImuSample> imu;
   Trajectory truth;      // body in the map frame; may be empty
-  std::string imu_name;  // file or topic, for messages
+  std::string imu_name;  // file or topic, for messages; empty where the recording has no IMU
   DropCounts dropped_imu, dropped_truth;
 };
 
 struct ImportSummary {
   std::int64_t n_events = 0, n_packets = 0, n_imu = 0, n_truth = 0;
   double seconds = 0;
+  Utime first_event = 0, last_event = 0;  // stamps
+  double imu_rate_hz = 0;
   DropCounts dropped_events, dropped_imu, dropped_truth;
 };
 

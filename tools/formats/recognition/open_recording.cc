@@ -1,0 +1,53 @@
+#include "tools/formats/recognition/open_recording.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "tools/formats/prophesee/raw_recording.h"
+
+namespace evit::formats {
+namespace {
+
+constexpr char kKnown[] =
+    "known are Metavision RAW (EVT 2.0, 2.1, 3.0) and DAT; evit import vector, rpg and bag read folders of VECtor and RPG and "
+    "ROS 1 bags";
+
+std::unique_ptr<Recording> OpenFile(const std::string& path) {
+  if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file");
+  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": is no file of events; " + kKnown);
+  if (RawRecording::Recognises(path)) return std::make_unique<RawRecording>(path);
+  throw std::runtime_error(path + ": its contents are of no format that is recognised; " + kKnown);
+}
+
+}  // namespace
+
+std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths) {
+  if (paths.size() != 1) throw std::runtime_error(paths[1] + ": a recording of this format is one file");
+  return OpenFile(paths.front());
+}
+
+void MeasureSize(Recording* recording, int* width, int* height) {
+  constexpr int kAny = 1 << 16;
+  const std::unique_ptr<EventSource> events = recording->Events(kAny, kAny);
+  EventArray piece;
+  std::uint16_t x = 0, y = 0;
+  bool any = false;
+  while (events->Read(&piece)) {
+    any = true;
+    x = std::max(x, *std::max_element(piece.x.begin(), piece.x.end()));
+    y = std::max(y, *std::max_element(piece.y.begin(), piece.y.end()));
+  }
+  if (!any) throw std::runtime_error(events->name() + ": holds no event");
+  constexpr int kSensors[][2] = {{128, 128}, {240, 180}, {304, 240}, {320, 320}, {346, 260}, {640, 480}, {1280, 720}};
+  *width = x + 1;
+  *height = y + 1;
+  for (const auto& sensor : kSensors) {
+    if (x >= sensor[0] || y >= sensor[1]) continue;
+    *width = sensor[0];
+    *height = sensor[1];
+    return;
+  }
+}
+
+}  // namespace evit::formats

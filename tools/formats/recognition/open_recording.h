@@ -1,0 +1,20 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tools/formats/import/recording.h"
+
+namespace evit::formats {
+
+/// Opens a recording of whatever format, which it recognises by the contents of its files, not by their names. Several
+/// paths: parts of one recording, where the format has such. Throws std::runtime_error naming the file, what it is
+/// recognised as, and what to do.
+std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths);
+
+/// The size of a sensor that its recording does not name: the smallest known one that holds all its events. Reads them
+/// all.
+void MeasureSize(Recording* recording, int* width, int* height);
+
+}  // namespace evit::formats
