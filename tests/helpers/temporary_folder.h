@@ -34,7 +34,8 @@ class TemporaryFolder {
 /// A real recording in EVIT_SHARED_DATA; empty, where there is none.
 inline std::string SharedFile(const std::string& name) {
   const char* folder = std::getenv("EVIT_SHARED_DATA");
-  const std::string path = std::string(folder != nullptr ? folder : EVIT_SOURCE_DIR "/../shared/data") + "/" + name;
+  const std::string path =
+      std::string(folder != nullptr ? folder : EVIT_SOURCE_DIR "/../shared/data") + "/" + name;
   return std::filesystem::exists(path) ? path : "";
 }
 

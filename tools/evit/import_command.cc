@@ -15,9 +15,9 @@ void PrintDropped(const formats::DropCounts& dropped, const char* what) {
 
 }  // namespace
 
-void ImportOptions::AddTo(CLI::App* source) {
+void ImportOptions::AddTo(CLI::App* source, bool require_out) {
   source->add_option("--out", out, "Log to write; the ground truth of the body is written to FILE.truth.tum")
-      ->required();
+      ->required(require_out);
   source->add_option(
       "--T-map-world", transform,
       "16 numbers, row-major 4x4, from the frame of the ground truth to that of the map (default: identity)");
@@ -50,7 +50,8 @@ void RunImport(const std::string& label, const formats::ImportTarget& target, co
 
 void AddImportCommand(CLI::App* app) {
   CLI::App* import =
-      app->add_subcommand("import", "Turn a recorded sequence into an LCM log")->require_subcommand(1);
+      app->add_subcommand("import", "Turn a recorded sequence into an LCM log")->require_subcommand(0, 1);
+  AddImportRecording(import);
   AddImportVector(import);
   AddImportRpg(import);
   AddImportBag(import);

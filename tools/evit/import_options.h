@@ -9,6 +9,8 @@
 /// What the subcommands of `evit import`, one per source, share.
 namespace evit::commands {
 
+/// `import` itself: a recording of whatever format.
+void AddImportRecording(CLI::App* import);
 void AddImportVector(CLI::App* import);
 void AddImportRpg(CLI::App* import);
 void AddImportBag(CLI::App* import);
@@ -16,7 +18,7 @@ void AddImportBag(CLI::App* import);
 struct ImportOptions {
   std::string out, transform, seconds;
 
-  void AddTo(CLI::App* source);
+  void AddTo(CLI::App* source, bool require_out = true);
   /// Throws std::runtime_error naming the option.
   void Apply(formats::ImportTarget* target) const;
 };

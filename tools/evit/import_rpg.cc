@@ -1,6 +1,4 @@
-#include <cstdio>
 #include <memory>
-#include <stdexcept>
 #include <tuple>
 
 #include "common/geometry/pose_text.h"
@@ -9,17 +7,6 @@
 #include "tools/formats/rpg/rpg_import.h"
 
 namespace evit::commands {
-namespace {
-
-void ParseSize(const std::string& text, formats::RpgImport* job) {
-  char rest = 0;
-  const int n = std::sscanf(text.c_str(), "%dx%d%c", &job->width, &job->height, &rest);
-  const auto possible = [](int pixels) { return pixels >= 16 && pixels <= 8192; };
-  if (n != 2 || !possible(job->width) || !possible(job->height))
-    throw std::runtime_error("--size " + text + ": expected WxH, 16 to 8192 pixels each, e.g. 346x260");
-}
-
-}  // namespace
 
 void AddImportRpg(CLI::App* import) {
   struct Options {
@@ -55,7 +42,7 @@ void AddImportRpg(CLI::App* import) {
       "order, not finite or outside the sensor are counted and left out.");
   rpg->callback([o] {
     o->shared.Apply(&o->job);
-    if (!o->size.empty()) ParseSize(o->size, &o->job);
+    if (!o->size.empty()) ParseSize(o->size, &o->job.width, &o->job.height);
     if (!o->pose.empty()) o->job.T_body_camera = ParsePose("--t-body-camera", o->pose);
     RunImport(o->job.folder, o->job, "groundtruth.txt",
               [&](const auto& progress) { return formats::ImportRpg(o->job, progress); });

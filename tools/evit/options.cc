@@ -17,6 +17,14 @@ std::pair<double, double> ParseSeconds(const std::string& text) {
   return {a, b};
 }
 
+void ParseSize(const std::string& text, int* width, int* height) {
+  char rest = 0;
+  const int n = std::sscanf(text.c_str(), "%dx%d%c", width, height, &rest);
+  const auto possible = [](int pixels) { return pixels >= 16 && pixels <= 8192; };
+  if (n != 2 || !possible(*width) || !possible(*height))
+    throw std::runtime_error("--size " + text + ": expected WxH, 16 to 8192 pixels each, e.g. 346x260");
+}
+
 SE3 ParseTransform(const std::string& option, const std::string& text) {
   std::istringstream words(text);
   Eigen::Matrix<double, 4, 4, Eigen::RowMajor> m;

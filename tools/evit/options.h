@@ -11,6 +11,9 @@ namespace evit::commands {
 /// "A:B" in seconds, A < B.
 std::pair<double, double> ParseSeconds(const std::string& text);
 
+/// "WxH" of a sensor, 16 to 8192 pixels each, for --size.
+void ParseSize(const std::string& text, int* width, int* height);
+
 /// 16 numbers, row-major 4x4, a rigid transformation.
 SE3 ParseTransform(const std::string& option, const std::string& text);
 

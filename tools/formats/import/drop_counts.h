@@ -9,9 +9,9 @@ namespace evit::formats {
 
 /// What was left out of one stream, and why.
 struct DropCounts {
-  std::int64_t disorder = 0;  // earlier than the one before
-  std::int64_t invalid = 0;   // NaN, infinite or, of a pose, no rotation
-  std::int64_t outside = 0;   // pixel not on the sensor
+  std::int64_t disorder = 0;   // earlier than the one before
+  std::int64_t invalid = 0;    // NaN, infinite or, of a pose, no rotation
+  std::int64_t outside = 0;    // pixel not on the sensor
   std::int64_t unstamped = 0;  // before the stream's first time stamp
 
   std::int64_t total() const { return disorder + invalid + outside + unstamped; }

@@ -81,7 +81,8 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* events, ImportS
   const Utime first = piece.t.front();
   CheckImu(streams, first);
   const bool has_imu = !streams.imu_name.empty();
-  Utime begin = has_imu ? std::min(first, streams.imu.front().t) : first, end = std::numeric_limits<Utime>::max();
+  Utime begin = has_imu ? std::min(first, streams.imu.front().t) : first,
+        end = std::numeric_limits<Utime>::max();
   if (target.seconds) {
     begin = first + static_cast<Utime>(target.seconds->first * 1e6);
     end = first + static_cast<Utime>(target.seconds->second * 1e6);

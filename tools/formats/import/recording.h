@@ -22,8 +22,8 @@ class Recording {
   virtual RecordingInfo info() const = 0;
   /// A pass over all events, from the first one on; events outside the size are counted and left out.
   virtual std::unique_ptr<EventSource> Events(int width, int height) = 0;
-  /// IMU samples (body axes, rad/s and m/s^2, stamps of the events' clock) and truth as recorded: poses of whatever body
-  /// the recording has, in its own frame. Empty where it holds none.
+  /// IMU samples (body axes, rad/s and m/s^2, stamps of the events' clock) and truth as recorded: poses of
+  /// whatever body the recording has, in its own frame. Empty where it holds none.
   virtual ImportStreams Streams() = 0;
 };
 

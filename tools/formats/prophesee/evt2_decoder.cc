@@ -15,8 +15,12 @@ std::uint32_t Word32(const std::uint8_t* data, std::size_t k) {
   std::memcpy(&word, data + 4 * k, 4);
   return word;
 }
-std::uint32_t Upper(const std::uint8_t* data, std::size_t k, bool first) { return Word32(data, 2 * k + (first ? 0 : 1)); }
-std::uint32_t Lower(const std::uint8_t* data, std::size_t k, bool first) { return Word32(data, 2 * k + (first ? 1 : 0)); }
+std::uint32_t Upper(const std::uint8_t* data, std::size_t k, bool first) {
+  return Word32(data, 2 * k + (first ? 0 : 1));
+}
+std::uint32_t Lower(const std::uint8_t* data, std::size_t k, bool first) {
+  return Word32(data, 2 * k + (first ? 1 : 0));
+}
 
 struct Fields {
   explicit Fields(std::uint32_t word)

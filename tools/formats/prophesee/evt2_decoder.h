@@ -14,8 +14,9 @@ class Evt2Decoder : public EventDecoder {
   TimeHigh<28> high_;
 };
 
-/// EVT 2.1: words of 64 bits, each up to 32 events of one row (docs.prophesee.ai, EVT 2.1 Format). Sensors send them in two
-/// orders: whole and little-endian (GenX320), or the upper half first, each half little-endian (IMX636, "legacy").
+/// EVT 2.1: words of 64 bits, each up to 32 events of one row (docs.prophesee.ai, EVT 2.1 Format). Sensors
+/// send them in two orders: whole and little-endian (GenX320), or the upper half first, each half
+/// little-endian (IMX636, "legacy").
 class Evt21Decoder : public EventDecoder {
  public:
   explicit Evt21Decoder(bool upper_half_first) : upper_half_first_(upper_half_first) {}

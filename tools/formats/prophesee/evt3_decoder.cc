@@ -24,7 +24,8 @@ std::uint16_t Word(const std::uint8_t* data, std::size_t k) {
   return word;
 }
 
-// Room for the most events that may come, written through plain pointers: push_back would take most of the time.
+// Room for the most events that may come, written through plain pointers: push_back would take most of the
+// time.
 struct Output {
   explicit Output(EventArray* e, std::size_t room) : events(e), n(e->size()) { Resize(n + room); }
   ~Output() { Resize(n); }

@@ -5,8 +5,8 @@
 
 namespace evit::formats {
 
-/// EVT 3.0: little-endian words of 16 bits that say only what changes (docs.prophesee.ai, EVT 3.0 Format). The stamp has
-/// 24 bits and wraps every 16.8 s.
+/// EVT 3.0: little-endian words of 16 bits that say only what changes (docs.prophesee.ai, EVT 3.0 Format).
+/// The stamp has 24 bits and wraps every 16.8 s.
 class Evt3Decoder : public EventDecoder {
  public:
   std::size_t Decode(const std::uint8_t* data, std::size_t size, bool last, EventArray* events) override;

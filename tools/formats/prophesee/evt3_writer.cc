@@ -13,8 +13,8 @@ constexpr unsigned kMaxCoordinate = 2047;
 
 Evt3Writer::Evt3Writer(const std::string& path, int width, int height, Utime start)
     : path_(path), file_(path), start_(start) {
-  file_.stream() << "% evt 3.0\n% format EVT3;height=" << height << ";width=" << width << "\n% geometry " << width << "x"
-                 << height << "\n% endianness little\n% integrator_name EVIT\n% end\n";
+  file_.stream() << "% evt 3.0\n% format EVT3;height=" << height << ";width=" << width << "\n% geometry "
+                 << width << "x" << height << "\n% endianness little\n% integrator_name EVIT\n% end\n";
 }
 
 // Each step of the upper part is said, as sensors do: readers count them to know how often it has wrapped.
@@ -31,7 +31,9 @@ void Evt3Writer::Append(const EventArray& events) {
   for (std::size_t k = 0; k < events.size(); ++k) {
     const Utime t = events.t[k] - start_;
     if (t < last_ || events.x[k] > kMaxCoordinate || events.y[k] > kMaxCoordinate) {
-      throw std::runtime_error(path_ + ": an event is earlier than the one before, or lies beyond pixel 2047, the limit of EVT 3.0");
+      throw std::runtime_error(
+          path_ +
+          ": an event is earlier than the one before, or lies beyond pixel 2047, the limit of EVT 3.0");
     }
     PutTime(t);
     if (events.y[k] != y_) {
@@ -40,7 +42,8 @@ void Evt3Writer::Append(const EventArray& events) {
     }
     Put(kAddrX, static_cast<unsigned>(events.p[k] != 0 ? 0x800 : 0) | events.x[k]);
   }
-  file_.stream().write(reinterpret_cast<const char*>(words_.data()), static_cast<std::streamsize>(2 * words_.size()));
+  file_.stream().write(reinterpret_cast<const char*>(words_.data()),
+                       static_cast<std::streamsize>(2 * words_.size()));
   words_.clear();
 }
 

@@ -31,17 +31,18 @@ std::uint16_t High(unsigned value) { return static_cast<std::uint16_t>(0x8000 | 
 std::uint16_t Low(unsigned value) { return static_cast<std::uint16_t>(0x6000 | value); }
 
 TEST(Evt3Decoder, SingleEventsAndVectorsAreDecoded) {
-  const std::vector<std::uint16_t> words = {
-      0x2805,                  // an event before the first stamp
-      High(3),        Low(7),  // 3 * 4096 + 7 us
-      0x0000 | 100,            // row 100
-      0x2800 | 17,             // column 17, brighter
-      0x2000 | 18,             // column 18, darker
-      0x3800 | 200,            // vectors from column 200, brighter
-      0x4000 | 0b100000000001, // 12 columns: the first and the last
-      0x5000 | 0b10000001,     // 8 more
-      0xA001,         0xE000,  // a trigger, others
-      0x2000 | 19};
+  const std::vector<std::uint16_t> words = {0x2805,  // an event before the first stamp
+                                            High(3),
+                                            Low(7),                   // 3 * 4096 + 7 us
+                                            0x0000 | 100,             // row 100
+                                            0x2800 | 17,              // column 17, brighter
+                                            0x2000 | 18,              // column 18, darker
+                                            0x3800 | 200,             // vectors from column 200, brighter
+                                            0x4000 | 0b100000000001,  // 12 columns: the first and the last
+                                            0x5000 | 0b10000001,      // 8 more
+                                            0xA001,
+                                            0xE000,  // a trigger, others
+                                            0x2000 | 19};
   for (const std::size_t piece : {2U, 3U, 7U, 1000U}) {
     Evt3Decoder decoder;
     const EventArray e = DecodeAll(&decoder, Bytes(words), piece);
@@ -70,7 +71,8 @@ TEST(Evt3Decoder, BitErrorsInTimeHighAreIgnored) {
   std::vector<std::uint16_t> words;
   for (unsigned high = 100; high < 9'000; ++high) {
     const bool turned = high % 7 == 0;
-    words.insert(words.end(), {High(turned ? high ^ (1U << (rng() % 12)) : high), High(high), Low(5), 0x2001});
+    words.insert(words.end(),
+                 {High(turned ? high ^ (1U << (rng() % 12)) : high), High(high), Low(5), 0x2001});
   }
   Evt3Decoder decoder;
   const EventArray e = DecodeAll(&decoder, Bytes(words), 1001);
@@ -86,7 +88,8 @@ TEST(Evt3Decoder, HolesInTimeAreFollowed) {
     words.insert(words.end(), {High(high), Low(1), 0x2001});
     expected.push_back(Utime{high} * 4096 + 1);
   }
-  words.push_back(words[words.size() - 3]);  // sensors repeat it; the last one of a stream could not be judged otherwise
+  words.push_back(
+      words[words.size() - 3]);  // sensors repeat it; the last one of a stream could not be judged otherwise
   Evt3Decoder decoder;
   EXPECT_EQ(DecodeAll(&decoder, Bytes(words), 64).t, expected);
 }
@@ -97,11 +100,16 @@ std::uint32_t Evt2Word(unsigned type, unsigned low, unsigned x, unsigned y) {
 
 TEST(Evt2Decoder, EventsAreDecodedAndTimeWraps) {
   constexpr std::uint32_t kEnd = 0x0FFF'FFFF;
-  const std::vector<std::uint32_t> words = {0x8000'0000U | (kEnd - 1), Evt2Word(1, 3, 5, 6),
-                                            0x8000'0000U | kEnd,       Evt2Word(0, 63, 2047, 1000),
-                                            0x8000'0000U,              Evt2Word(1, 0, 1, 2),
-                                            0x8000'0000U ^ 0x0010'0000U,  // a bit error: the next one denies it
-                                            0x8000'0001U,              Evt2Word(1, 1, 1, 2)};
+  const std::vector<std::uint32_t> words = {
+      0x8000'0000U | (kEnd - 1),
+      Evt2Word(1, 3, 5, 6),
+      0x8000'0000U | kEnd,
+      Evt2Word(0, 63, 2047, 1000),
+      0x8000'0000U,
+      Evt2Word(1, 0, 1, 2),
+      0x8000'0000U ^ 0x0010'0000U,  // a bit error: the next one denies it
+      0x8000'0001U,
+      Evt2Word(1, 1, 1, 2)};
   for (const std::size_t piece : {4U, 5U, 1000U}) {
     Evt2Decoder decoder;
     const EventArray e = DecodeAll(&decoder, Bytes(words), piece);
@@ -120,13 +128,15 @@ TEST(Evt21Decoder, BothWordOrdersAreRecognisedAndDecoded) {
   for (unsigned high = 1000; high < 1200; ++high) {
     const unsigned x = 32 * (rng() % 20), y = rng() % 720, p = rng() % 2, low = rng() % 64;
     const std::uint32_t valid = static_cast<std::uint32_t>(rng());
-    for (const auto& [upper, lower] : {std::pair(0x8000'0000U | high, std::uint32_t{0}), std::pair(Evt2Word(p, low, x, y), valid)}) {
+    for (const auto& [upper, lower] :
+         {std::pair(0x8000'0000U | high, std::uint32_t{0}), std::pair(Evt2Word(p, low, x, y), valid)}) {
       upper_first.insert(upper_first.end(), {upper, lower});
       little.insert(little.end(), {lower, upper});
     }
     for (unsigned bit = 0; bit < 32; ++bit) {
       if ((valid >> bit & 1) != 0)
-        expected.push_back(Utime{high} * 64 + low, static_cast<std::uint16_t>(x + bit), static_cast<std::uint16_t>(y), static_cast<std::uint8_t>(p));
+        expected.push_back(Utime{high} * 64 + low, static_cast<std::uint16_t>(x + bit),
+                           static_cast<std::uint16_t>(y), static_cast<std::uint8_t>(p));
     }
   }
   for (const auto& [words, first] : {std::pair(upper_first, true), std::pair(little, false)}) {
@@ -142,7 +152,8 @@ TEST(Evt21Decoder, BothWordOrdersAreRecognisedAndDecoded) {
 }
 
 TEST(DatDecoder, EventsAreDecodedAndTimeWraps) {
-  const std::vector<std::uint32_t> words = {0xFFFF'FFF0U, 1U << 28 | 719U << 14 | 1279U, 5, 0U << 28 | 3U << 14 | 2U};
+  const std::vector<std::uint32_t> words = {0xFFFF'FFF0U, 1U << 28 | 719U << 14 | 1279U, 5,
+                                            0U << 28 | 3U << 14 | 2U};
   DatDecoder decoder;
   const EventArray e = DecodeAll(&decoder, Bytes(words), 5);
   EXPECT_EQ(e.t, (std::vector<Utime>{0xFFFF'FFF0LL, (Utime{1} << 32) + 5}));

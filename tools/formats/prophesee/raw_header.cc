@@ -18,7 +18,9 @@ std::string Lower(std::string text) {
   return text;
 }
 
-bool Plausible(int width, int height) { return width >= 16 && height >= 16 && width <= 8192 && height <= 8192; }
+bool Plausible(int width, int height) {
+  return width >= 16 && height >= 16 && width <= 8192 && height <= 8192;
+}
 
 }  // namespace
 
@@ -28,7 +30,8 @@ RawHeader::RawHeader(ByteFile* file) {
     }
     const char* begin = reinterpret_cast<const char*>(file->data());
     if (file->available() < 2 || begin[0] != '%' || begin[1] != ' ') return;
-    const auto* newline = static_cast<const char*>(std::memchr(begin, '\n', std::min(file->available(), kMaxHeader)));
+    const auto* newline =
+        static_cast<const char*>(std::memchr(begin, '\n', std::min(file->available(), kMaxHeader)));
     if (newline == nullptr) file->Fail("a header line does not end: is it a RAW or DAT file?");
     std::istringstream line(std::string(begin + 2, newline));
     file->Use(static_cast<std::size_t>(newline - begin) + 1);
@@ -46,7 +49,8 @@ RawHeader::RawHeader(ByteFile* file) {
     values["format"] = part;
     while (std::getline(parts, part, ';')) {
       const std::size_t equal = part.find('=');
-      if (equal != std::string::npos) values["format." + Lower(part.substr(0, equal))] = part.substr(equal + 1);
+      if (equal != std::string::npos)
+        values["format." + Lower(part.substr(0, equal))] = part.substr(equal + 1);
     }
   }
 }
@@ -64,10 +68,11 @@ void SensorSize(const RawHeader& header, int* width, int* height) {
   *width = number("width");
   *height = number("height");
   if (Plausible(*width, *height)) return;
-  if (std::sscanf(header.Get("geometry").c_str(), "%dx%d", width, height) == 2 && Plausible(*width, *height)) return;
+  if (std::sscanf(header.Get("geometry").c_str(), "%dx%d", width, height) == 2 && Plausible(*width, *height))
+    return;
   // Files of earlier versions name only the plug-in that wrote them, or the sensor.
-  const std::string names = Lower(header.Get("plugin_name") + " " + header.Get("camera_integrator_name") + " " +
-                                  header.Get("sensor_name") + " " + header.Get("sensor_generation"));
+  const std::string names = Lower(header.Get("plugin_name") + " " + header.Get("camera_integrator_name") +
+                                  " " + header.Get("sensor_name") + " " + header.Get("sensor_generation"));
   *width = *height = 0;
   const struct {
     const char* name;

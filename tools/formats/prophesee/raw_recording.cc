@@ -12,12 +12,13 @@
 namespace evit::formats {
 namespace {
 
-constexpr std::size_t kBlock = 1 << 18;        // bytes decoded at a time: what comes of them stays in the cache
-constexpr std::size_t kLongest = 1 << 24;      // bytes without a TIME_HIGH: no sensor is silent for so long
+constexpr std::size_t kBlock = 1 << 18;    // bytes decoded at a time: what comes of them stays in the cache
+constexpr std::size_t kLongest = 1 << 24;  // bytes without a TIME_HIGH: no sensor is silent for so long
 
 class RawEvents : public EventSource {
  public:
-  RawEvents(const std::string& path, std::uint64_t begin, std::unique_ptr<EventDecoder> decoder, int width, int height)
+  RawEvents(const std::string& path, std::uint64_t begin, std::unique_ptr<EventDecoder> decoder, int width,
+            int height)
       : file_(path), decoder_(std::move(decoder)), filter_(width, height) {
     file_.Seek(begin);
   }
@@ -76,9 +77,11 @@ RawRecording::RawRecording(const std::string& path) : path_(path) {
     const bool upper_first =
         order == "legacy" || (order.empty() && Evt21Decoder::UpperHalfFirst(file.data(), file.available()));
     encoding_ = upper_first ? Encoding::kEvt21UpperFirst : Encoding::kEvt21;
-    info_.format = std::string("Metavision RAW, EVT 2.1 (") + (upper_first ? "upper half first)" : "little-endian)");
+    info_.format =
+        std::string("Metavision RAW, EVT 2.1 (") + (upper_first ? "upper half first)" : "little-endian)");
   } else if (!name.empty()) {
-    file.Fail("its encoding is " + name + "; known are EVT2, EVT21 and EVT3: convert it with metavision_file_to_dat");
+    file.Fail("its encoding is " + name +
+              "; known are EVT2, EVT21 and EVT3: convert it with metavision_file_to_dat");
   } else {
     const std::uint8_t* type = file.Take(2, "event type and size");
     if ((type[0] != 0x00 && type[0] != 0x0C) || type[1] != 8) {
@@ -88,7 +91,8 @@ RawRecording::RawRecording(const std::string& path) : path_(path) {
     encoding_ = Encoding::kDat;
     info_.format = "Metavision DAT";
   }
-  if (header.Get("endianness") == "big") file.Fail("is big-endian, which is not read; record it little-endian");
+  if (header.Get("endianness") == "big")
+    file.Fail("is big-endian, which is not read; record it little-endian");
   begin_ = file.position();
 }
 

@@ -7,8 +7,9 @@
 
 namespace evit::formats {
 
-/// A file of Metavision: RAW (EVT 2.0, 2.1 in both word orders, 3.0) or DAT. Events alone. Stamps count from the start of
-/// the sensor. Throws std::runtime_error naming the file where it is neither, or its encoding is another.
+/// A file of Metavision: RAW (EVT 2.0, 2.1 in both word orders, 3.0) or DAT. Events alone. Stamps count from
+/// the start of the sensor. Throws std::runtime_error naming the file where it is neither, or its encoding is
+/// another.
 class RawRecording : public Recording {
  public:
   /// Whether a file begins like one.

@@ -43,12 +43,14 @@ TEST(RawRecording, HeadersNameEncodingAndSize) {
   const struct {
     std::string header, format;
     int width, height;
-  } cases[] = {
-      {"% evt 2.0\n% plugin_name hal_plugin_gen3_fx3\n", "Metavision RAW, EVT 2.0", 640, 480},
-      {"% format EVT21;height=320;width=320;endianness=little\n% end\n", "Metavision RAW, EVT 2.1 (little-endian)", 320, 320},
-      {"% format EVT21;endianness=legacy\n% sensor_name IMX636\n% end\n", "Metavision RAW, EVT 2.1 (upper half first)", 1280, 720},
-      {"% evt 3.0\r\n% geometry 640x480\r\n", "Metavision RAW, EVT 3.0", 640, 480},
-      {"% Data file containing CD events.\n% Version 2\n% Height 240\n% Width 304\n\x0C\x08", "Metavision DAT", 304, 240}};
+  } cases[] = {{"% evt 2.0\n% plugin_name hal_plugin_gen3_fx3\n", "Metavision RAW, EVT 2.0", 640, 480},
+               {"% format EVT21;height=320;width=320;endianness=little\n% end\n",
+                "Metavision RAW, EVT 2.1 (little-endian)", 320, 320},
+               {"% format EVT21;endianness=legacy\n% sensor_name IMX636\n% end\n",
+                "Metavision RAW, EVT 2.1 (upper half first)", 1280, 720},
+               {"% evt 3.0\r\n% geometry 640x480\r\n", "Metavision RAW, EVT 3.0", 640, 480},
+               {"% Data file containing CD events.\n% Version 2\n% Height 240\n% Width 304\n\x0C\x08",
+                "Metavision DAT", 304, 240}};
   for (const auto& c : cases) {
     const std::string path = folder.Write("a.raw", c.header + std::string(16, '\0'));
     EXPECT_TRUE(RawRecording::Recognises(path));
@@ -63,9 +65,10 @@ TEST(RawRecording, OtherFilesAreRefused) {
   const TemporaryFolder folder("raw");
   EXPECT_FALSE(RawRecording::Recognises(folder.Write("a.txt", "0.1 2 3 1\n")));
   EXPECT_FALSE(RawRecording::Recognises(folder.Write("empty", "")));
-  for (const auto& [header, why] :
-       {std::pair("% format EVT4\n% end\n1234567", "its encoding is EVT4"), std::pair("% what 1\n\x01\x02zz", "names no encoding"),
-        std::pair("% evt 3.0\n% endianness big\n% end\n", "big-endian"), std::pair("% no end of line", "does not end")}) {
+  for (const auto& [header, why] : {std::pair("% format EVT4\n% end\n1234567", "its encoding is EVT4"),
+                                    std::pair("% what 1\n\x01\x02zz", "names no encoding"),
+                                    std::pair("% evt 3.0\n% endianness big\n% end\n", "big-endian"),
+                                    std::pair("% no end of line", "does not end")}) {
     const std::string path = folder.Write("a.raw", header);
     EXPECT_THAT([&] { RawRecording{path}; }, ThrowsMessage<std::runtime_error>(HasSubstr(path)));
     EXPECT_THAT([&] { RawRecording{path}; }, ThrowsMessage<std::runtime_error>(HasSubstr(why)));

@@ -4,8 +4,8 @@
 
 namespace evit::formats {
 
-/// The upper part of a sensor's clock, `bits` wide, as EVT streams repeat it: made continuous where it wraps. Transmission
-/// turns single bits now and then; a value that the next one does not confirm is ignored.
+/// The upper part of a sensor's clock, `bits` wide, as EVT streams repeat it: made continuous where it wraps.
+/// Transmission turns single bits now and then; a value that the next one does not confirm is ignored.
 template <int bits>
 class TimeHigh {
  public:
@@ -34,10 +34,13 @@ class TimeHigh {
 
  private:
   static constexpr std::int64_t kMask = (std::int64_t{1} << bits) - 1;
-  // Sensors slip backwards by a few units at most; any other earlier value means that the counter has wrapped.
+  // Sensors slip backwards by a few units at most; any other earlier value means that the counter has
+  // wrapped.
   static constexpr std::int64_t kSlip = 16;
 
-  std::int64_t Distance(std::uint32_t high) const { return (static_cast<std::int64_t>(high) - value_) & kMask; }
+  std::int64_t Distance(std::uint32_t high) const {
+    return (static_cast<std::int64_t>(high) - value_) & kMask;
+  }
   bool Set(std::uint32_t high) {
     std::int64_t d = known_ ? Distance(high) : static_cast<std::int64_t>(high);
     if (known_ && d > kMask - kSlip) d -= kMask + 1;

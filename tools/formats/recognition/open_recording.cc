@@ -10,12 +10,14 @@ namespace evit::formats {
 namespace {
 
 constexpr char kKnown[] =
-    "known are Metavision RAW (EVT 2.0, 2.1, 3.0) and DAT; evit import vector, rpg and bag read folders of VECtor and RPG and "
+    "known are Metavision RAW (EVT 2.0, 2.1, 3.0) and DAT; evit import vector, rpg and bag read folders of "
+    "VECtor and RPG and "
     "ROS 1 bags";
 
 std::unique_ptr<Recording> OpenFile(const std::string& path) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file");
-  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": is no file of events; " + kKnown);
+  if (!std::filesystem::is_regular_file(path))
+    throw std::runtime_error(path + ": is no file of events; " + kKnown);
   if (RawRecording::Recognises(path)) return std::make_unique<RawRecording>(path);
   throw std::runtime_error(path + ": its contents are of no format that is recognised; " + kKnown);
 }
@@ -39,7 +41,8 @@ void MeasureSize(Recording* recording, int* width, int* height) {
     y = std::max(y, *std::max_element(piece.y.begin(), piece.y.end()));
   }
   if (!any) throw std::runtime_error(events->name() + ": holds no event");
-  constexpr int kSensors[][2] = {{128, 128}, {240, 180}, {304, 240}, {320, 320}, {346, 260}, {640, 480}, {1280, 720}};
+  constexpr int kSensors[][2] = {{128, 128}, {240, 180}, {304, 240}, {320, 320},
+                                 {346, 260}, {640, 480}, {1280, 720}};
   *width = x + 1;
   *height = y + 1;
   for (const auto& sensor : kSensors) {

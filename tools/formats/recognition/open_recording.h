@@ -8,13 +8,13 @@
 
 namespace evit::formats {
 
-/// Opens a recording of whatever format, which it recognises by the contents of its files, not by their names. Several
-/// paths: parts of one recording, where the format has such. Throws std::runtime_error naming the file, what it is
-/// recognised as, and what to do.
+/// Opens a recording of whatever format, which it recognises by the contents of its files, not by their
+/// names. Several paths: parts of one recording, where the format has such. Throws std::runtime_error naming
+/// the file, what it is recognised as, and what to do.
 std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths);
 
-/// The size of a sensor that its recording does not name: the smallest known one that holds all its events. Reads them
-/// all.
+/// The size of a sensor that its recording does not name: the smallest known one that holds all its events.
+/// Reads them all.
 void MeasureSize(Recording* recording, int* width, int* height);
 
 }  // namespace evit::formats

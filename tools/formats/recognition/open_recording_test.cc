@@ -14,7 +14,9 @@ using ::testing::ThrowsMessage;
 
 TEST(OpenRecording, WhatIsNotRecognisedIsSaidWithWhatWouldBe) {
   const TemporaryFolder folder("recognition");
-  const std::string path = folder.Write("a.raw", "\x7f" "ELF something else");
+  const std::string path = folder.Write("a.raw",
+                                        "\x7f"
+                                        "ELF something else");
   EXPECT_THAT([&] { OpenRecording({path}); },
               ThrowsMessage<std::runtime_error>(AllOf(HasSubstr(path), HasSubstr("Metavision RAW"))));
   EXPECT_THAT([&] { OpenRecording({folder.File("none")}); },

@@ -1,0 +1,73 @@
+#include "tools/formats/recognition/import_recording.h"
+
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+
+#include "common/config/rig_file.h"
+#include "common/evaluation/decimal_time.h"
+#include "tools/evit/import_options.h"
+#include "tools/evit/options.h"
+
+namespace evit::commands {
+namespace {
+
+void PrintFound(const std::string& path, const formats::RecordingInfo& info) {
+  std::printf("%s: %s, %s%s%dx%d\n", path.c_str(), info.format.c_str(), info.sensor.c_str(),
+              info.sensor.empty() ? "" : ", ", info.width, info.height);
+  std::fflush(stdout);
+}
+
+void PrintStreams(const formats::ImportSummary& s) {
+  std::printf("stamps: %s to %s s\n", DecimalSeconds(s.first_event).c_str(),
+              DecimalSeconds(s.last_event).c_str());
+  if (s.n_imu > 0) {
+    std::printf("IMU: %.0f Hz\n", s.imu_rate_hz);
+  } else {
+    std::printf("no IMU in the recording: evit run needs one\n");
+  }
+}
+
+}  // namespace
+
+void AddImportRecording(CLI::App* import) {
+  struct Options {
+    ImportOptions shared;
+    formats::RecordingImport job;
+    std::string size, rig;
+  };
+  auto o = std::make_shared<Options>();
+  import->add_option("FILE", o->job.paths, "Recording of any format that is recognised by its contents");
+  o->shared.AddTo(import, false);
+  import->add_option("--size", o->size, "WxH of the sensor in pixels, where the recording does not say it");
+  import->add_option("--rig", o->rig, "Calibration; its T_marker_body turns the truth's body into the IMU's");
+  import->footer(
+      "Example: evit import recording.raw --out recording.lcmlog\n"
+      "What is out of order, not finite or outside the sensor is counted and left out.");
+  import->callback([o, import] {
+    if (!import->get_subcommands().empty()) return;
+  if (o->job.paths.empty())
+    throw std::runtime_error("no recording given: evit import FILE --out LOG, or evit import --help");
+  if (o->shared.out.empty()) throw std::runtime_error("--out is missing: the log to write");
+  o->shared.Apply(&o->job);
+  if (!o->size.empty()) ParseSize(o->size, &o->job.width, &o->job.height);
+  if (!o->rig.empty()) {
+    const Rig rig = LoadRig(o->rig);
+    o->job.T_marker_body = rig.T_marker_body;
+    if (o->size.empty()) {
+      o->job.width = rig.camera.width;
+      o->job.height = rig.camera.height;
+    }
+  }
+  formats::ImportSummary summary;
+  RunImport(o->job.paths.front(), o->job, "none recognised in the recording", [&](const auto& progress) {
+    summary = formats::ImportRecording(
+        o->job, [&](const formats::RecordingInfo& info) { PrintFound(o->job.paths.front(), info); },
+        progress);
+    return summary;
+  });
+  PrintStreams(summary);
+});
+}  // namespace evit::commands
+
+}  // namespace evit::commands

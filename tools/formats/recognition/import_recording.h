@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/geometry/rig.h"
+#include "tools/formats/import/import_log.h"
+#include "tools/formats/import/recording.h"
+
+namespace evit::formats {
+
+/// A recording of any format that OpenRecording knows, to become an LCM log.
+struct RecordingImport : ImportTarget {
+  std::vector<std::string> paths;
+  int width = 0, height = 0;  // of the sensor; 0: as the recording says, or as its events show
+  SE3 T_marker_body;          // from the truth's body to the IMU's
+};
+
+/// As ImportLog; `found` is told what was recognised as soon as it is (with the size that is used).
+ImportSummary ImportRecording(const RecordingImport& job,
+                              const std::function<void(const RecordingInfo&)>& found,
+                              const std::function<void(double)>& progress);
+
+}  // namespace evit::formats
