@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "tests/helpers/paths.h"
 
 namespace evit {
 
@@ -31,11 +32,9 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// A real recording in EVIT_SHARED_DATA; empty, where there is none.
+/// A file of the real recordings (RecordingsPath); empty, where it is not there.
 inline std::string SharedFile(const std::string& name) {
-  const char* folder = std::getenv("EVIT_SHARED_DATA");
-  const std::string path =
-      std::string(folder != nullptr ? folder : EVIT_SOURCE_DIR "/../shared/data") + "/" + name;
+  const std::string path = test::RecordingsPath(name);
   return std::filesystem::exists(path) ? path : "";
 }
 

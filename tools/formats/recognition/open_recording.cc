@@ -4,21 +4,24 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "tools/formats/aedat/aedat4_recording.h"
+#include "tools/formats/aedat/aedat_recording.h"
 #include "tools/formats/prophesee/raw_recording.h"
 
 namespace evit::formats {
 namespace {
 
 constexpr char kKnown[] =
-    "known are Metavision RAW (EVT 2.0, 2.1, 3.0) and DAT; evit import vector, rpg and bag read folders of "
-    "VECtor and RPG and "
-    "ROS 1 bags";
+    "known are Metavision RAW (EVT 2.0, 2.1, 3.0) and DAT, AEDAT 2.0, 3.1 and 4.0; evit import vector, rpg "
+    "and bag read folders of VECtor and RPG and ROS 1 bags";
 
 std::unique_ptr<Recording> OpenFile(const std::string& path) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file");
   if (!std::filesystem::is_regular_file(path))
     throw std::runtime_error(path + ": is no file of events; " + kKnown);
   if (RawRecording::Recognises(path)) return std::make_unique<RawRecording>(path);
+  if (Aedat4Recording::Recognises(path)) return std::make_unique<Aedat4Recording>(path);
+  if (AedatRecording::Recognises(path)) return std::make_unique<AedatRecording>(path);
   throw std::runtime_error(path + ": its contents are of no format that is recognised; " + kKnown);
 }
 
