@@ -41,6 +41,11 @@ void AddImportRecording(CLI::App* import) {
   o->shared.AddTo(import, false);
   import->add_option("--size", o->size, "WxH of the sensor in pixels, where the recording does not say it");
   import->add_option("--rig", o->rig, "Calibration; its T_marker_body turns the truth's body into the IMU's");
+  formats::StreamChoice& choice = o->job.choice;
+  import->add_option("--events-topic", choice.events, "Of a bag: events to take (default: the only ones)");
+  import->add_option("--imu-topic", choice.imu, "Of a bag: IMU to take (default: the only one)");
+  import->add_option("--truth-topic", choice.truth,
+                     "Of a bag: pose, odometry or transform to take (default: the only one)");
   import->footer(
       "Example: evit import recording.raw --out recording.lcmlog\n"
       "What is out of order, not finite or outside the sensor is counted and left out.");

@@ -28,8 +28,9 @@ class BagFiles {
   }
 
   const std::vector<std::unique_ptr<rosbag::Bag>>& bags() const { return bags_; }
-  std::string Names() const;   // of all files
-  std::string Topics() const;  // all topics with their types
+  const std::map<std::string, std::string>& types() const { return types_; }  // of each topic
+  std::string Names() const;                                                  // of all files
+  std::string Topics() const;                                                 // all topics with their types
 
  private:
   std::string FindTopic(const std::vector<std::string>& types, const std::string& requested,

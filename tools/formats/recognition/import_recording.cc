@@ -2,14 +2,12 @@
 
 #include <utility>
 
-#include "tools/formats/recognition/open_recording.h"
-
 namespace evit::formats {
 
 ImportSummary ImportRecording(const RecordingImport& job,
                               const std::function<void(const RecordingInfo&)>& found,
                               const std::function<void(double)>& progress) {
-  const std::unique_ptr<Recording> recording = OpenRecording(job.paths);
+  const std::unique_ptr<Recording> recording = OpenRecording(job.paths, job.choice);
   RecordingInfo info = recording->info();
   if (job.width > 0) {
     info.width = job.width;

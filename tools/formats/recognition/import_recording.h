@@ -8,6 +8,7 @@
 #include "common/geometry/rig.h"
 #include "tools/formats/import/import_log.h"
 #include "tools/formats/import/recording.h"
+#include "tools/formats/recognition/open_recording.h"
 
 namespace evit::formats {
 
@@ -15,7 +16,8 @@ namespace evit::formats {
 struct RecordingImport : ImportTarget {
   std::vector<std::string> paths;
   int width = 0, height = 0;  // of the sensor; 0: as the recording says, or as its events show
-  SE3 T_marker_body;          // from the truth's body to the IMU's
+  StreamChoice choice;
+  SE3 T_marker_body;  // from the truth's body to the IMU's
 };
 
 /// As ImportLog; `found` is told what was recognised as soon as it is (with the size that is used).

@@ -3,17 +3,21 @@
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "tools/formats/aedat/aedat4_recording.h"
 #include "tools/formats/aedat/aedat_recording.h"
+#include "tools/formats/bag/rosbag_store.h"
 #include "tools/formats/prophesee/raw_recording.h"
+#include "tools/formats/ros/ros_recording.h"
+#include "tools/formats/ros2/bag_folder.h"
 
 namespace evit::formats {
 namespace {
 
 constexpr char kKnown[] =
-    "known are Metavision RAW (EVT 2.0, 2.1, 3.0) and DAT, AEDAT 2.0, 3.1 and 4.0; evit import vector, rpg "
-    "and bag read folders of VECtor and RPG and ROS 1 bags";
+    "known are Metavision RAW (EVT 2.0, 2.1, 3.0) and DAT, AEDAT 2.0, 3.1 and 4.0, bags of ROS 1 and of "
+    "ROS 2 (SQLite, MCAP); evit import vector and rpg read folders of VECtor and RPG";
 
 std::unique_ptr<Recording> OpenFile(const std::string& path) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file");
@@ -25,10 +29,35 @@ std::unique_ptr<Recording> OpenFile(const std::string& path) {
   throw std::runtime_error(path + ": its contents are of no format that is recognised; " + kKnown);
 }
 
+std::unique_ptr<MessageStore> OpenRos2Bags(const std::vector<std::string>& paths) {
+  std::vector<std::unique_ptr<MessageStore>> bags;
+  for (const std::string& path : paths) {
+    auto bag = OpenRos2Bag(path);
+    if (!bag && bags.empty()) return nullptr;
+    if (!bag) throw std::runtime_error(path + ": is no bag of ROS 2, unlike " + paths.front());
+    bags.push_back(std::move(bag));
+  }
+  return bags.size() == 1 ? std::move(bags.front()) : std::make_unique<BagFolder>(std::move(bags));
+}
+
+// Several bags are one recording: of several topics, or one after the other. Null where they are none.
+std::unique_ptr<MessageStore> OpenBags(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file or folder");
+  }
+  const bool is_file = std::filesystem::is_regular_file(paths.front());
+  if (is_file && RosbagStore::Recognises(paths.front())) return std::make_unique<RosbagStore>(paths);
+  return OpenRos2Bags(paths);
+}
+
 }  // namespace
 
-std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths) {
-  if (paths.size() != 1) throw std::runtime_error(paths[1] + ": a recording of this format is one file");
+std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths, const StreamChoice& choice) {
+  if (auto bags = OpenBags(paths))
+    return std::make_unique<RosRecording>(std::move(bags),
+                                          RosTopics{choice.events, choice.imu, choice.truth});
+  if (paths.size() != 1)
+    throw std::runtime_error(paths[1] + ": a recording of the format of " + paths.front() + " is one file");
   return OpenFile(paths.front());
 }
 

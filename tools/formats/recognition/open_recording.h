@@ -8,10 +8,16 @@
 
 namespace evit::formats {
 
+/// What can be chosen where a recording holds several streams of a kind; empty: the only one.
+struct StreamChoice {
+  std::string events, imu, truth;  // topics
+};
+
 /// Opens a recording of whatever format, which it recognises by the contents of its files, not by their
 /// names. Several paths: parts of one recording, where the format has such. Throws std::runtime_error naming
 /// the file, what it is recognised as, and what to do.
-std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths);
+std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths,
+                                         const StreamChoice& choice = {});
 
 /// The size of a sensor that its recording does not name: the smallest known one that holds all its events.
 /// Reads them all.

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace evit::formats {
+
+/// A serialized message, valid until the next one is asked for.
+struct RosMessage {
+  std::string topic;
+  const std::uint8_t* data = nullptr;
+  std::size_t size = 0;
+};
+
+/// A pass over the messages of some topics of a bag, in the order of the time they were recorded at.
+class MessagePass {
+ public:
+  virtual ~MessagePass() = default;
+  /// False at the end. Throws std::runtime_error naming the file where it is damaged.
+  virtual bool Next(RosMessage* message) = 0;
+  virtual double share() const = 0;  // of the bag that was read, 0..1
+};
+
+struct RosTopic {
+  std::string name, type;  // type as ROS 1 writes it: package/Type
+};
+
+/// A bag of whatever container: what topics it has, and passes over them.
+class MessageStore {
+ public:
+  virtual ~MessageStore() = default;
+  virtual std::string name() const = 0;       // file or folder, for messages
+  virtual std::string container() const = 0;  // for people, e.g. "MCAP"
+  virtual bool cdr() const = 0;  // serialized by ROS 2's rules (aligned); otherwise by ROS 1's (packed)
+  virtual const std::vector<RosTopic>& topics() const = 0;
+  virtual std::unique_ptr<MessagePass> Read(const std::set<std::string>& topics) const = 0;
+};
+
+/// No driver sends more at once; a forged length must not decide how much memory is reserved.
+inline constexpr std::size_t kMaxMessage = 1U << 28;  // bytes
+
+/// package/msg/Type as ROS 1 writes it: package/Type.
+std::string Ros1TypeName(const std::string& type);
+
+}  // namespace evit::formats

@@ -1,0 +1,150 @@
+#include "tools/formats/ros/ros_recording.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "tools/formats/event_packet/event_packet_decoder.h"
+#include "tools/formats/import/event_filter.h"
+#include "tools/formats/ros/message_types.h"
+#include "tools/formats/ros/topic_choice.h"
+
+namespace evit::formats {
+namespace {
+
+template <std::size_t n>
+bool IsOneOf(const std::string& type, const char* const (&types)[n]) {
+  return std::find(std::begin(types), std::end(types), type) != std::end(types);
+}
+
+// What `work` throws comes out with bag, topic and the message's number.
+template <typename Work>
+auto InMessage(const MessageStore& store, const std::string& topic, std::int64_t number, const Work& work) {
+  try {
+    return work();
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(store.name() + ": " + topic + ", message " + std::to_string(number) + ": " +
+                             error.what());
+  }
+}
+
+class RosEvents : public EventSource {
+ public:
+  RosEvents(const MessageStore& store, const RosTopic& topic, const ClockFit* clock, int width, int height)
+      : store_(store),
+        topic_(topic),
+        pass_(store.Read({topic.name})),
+        clock_(clock),
+        filter_(width, height) {}
+
+  bool Read(EventArray* events) override {
+    events->clear();
+    RosMessage message;
+    while (events->size() == 0 && pass_->Next(&message)) {
+      InMessage(store_, topic_.name, ++number_,
+                [&] { Decode(RosCursor(message.data, message.size, store_.cdr()), events); });
+      filter_.Apply(events);
+    }
+    return events->size() > 0;
+  }
+  double share() const override { return pass_->share(); }
+  std::string name() const override { return store_.name() + ": " + topic_.name; }
+  DropCounts dropped() const override {
+    DropCounts dropped = filter_.dropped();
+    dropped.unstamped = packets_.unstamped();
+    return dropped;
+  }
+
+ private:
+  void Decode(const RosCursor& cursor, EventArray* events) {
+    if (!IsOneOf(topic_.type, kEventPacketTypes)) {
+      GetEventArray(cursor, events);
+      return;
+    }
+    packets_.Decode(GetEventPacket(cursor), events);
+    if (clock_ == nullptr) return;
+    for (Utime& t : events->t) t = clock_->ToHost(t);
+  }
+
+  const MessageStore& store_;
+  RosTopic topic_;
+  std::unique_ptr<MessagePass> pass_;
+  const ClockFit* clock_;
+  EventPacketDecoder packets_;
+  EventFilter filter_;
+  std::int64_t number_ = 0;
+};
+
+}  // namespace
+
+RosRecording::RosRecording(std::unique_ptr<MessageStore> store, const RosTopics& topics)
+    : store_(std::move(store)) {
+  std::vector<std::string> types(std::begin(kEventPacketTypes), std::end(kEventPacketTypes));
+  types.insert(types.end(), std::begin(kEventArrayTypes), std::end(kEventArrayTypes));
+  events_ = ChooseTopic(*store_, types, topics.events, "--events-topic");
+  if (events_.name.empty()) {
+    throw std::runtime_error(
+        store_->name() + ": holds no events (EventPacket of event_camera_msgs, EventArray of dvs_msgs or " +
+        "prophesee_event_msgs); topics: " + TopicList(*store_));
+  }
+  imu_ = ChooseTopic(*store_, {kImuType}, topics.imu, "--imu-topic");
+  truth_ =
+      ChooseTopic(*store_, {std::begin(kPoseTypes), std::end(kPoseTypes)}, topics.truth, "--truth-topic");
+  Scan();
+}
+
+// One pass for all that is wanted before the events: size and clock of the sensor, IMU and truth.
+void RosRecording::Scan() {
+  const bool packets = IsOneOf(events_.type, kEventPacketTypes);
+  std::set<std::string> topics = {events_.name};
+  for (const RosTopic& topic : {imu_, truth_}) {
+    if (!topic.name.empty()) topics.insert(topic.name);
+  }
+  std::unique_ptr<MessagePass> pass = store_->Read(topics);
+  EventPacketDecoder decoder;
+  EventArray events;
+  std::map<std::string, std::int64_t> n;  // messages of each topic
+  std::string encoding;
+  RosMessage message;
+  while (pass->Next(&message)) {
+    InMessage(*store_, message.topic, ++n[message.topic], [&] {
+      const RosCursor cursor(message.data, message.size, store_->cdr());
+      if (message.topic == imu_.name) {
+        const ImuSample s = GetImu(cursor);
+        AppendValid(s, s.gyro.allFinite() && s.accel.allFinite(), &streams_.imu, &streams_.dropped_imu);
+      } else if (message.topic == truth_.name) {
+        AppendPose(GetPose(truth_.type, cursor), true, &streams_.truth, &streams_.dropped_truth);
+      } else if (packets) {
+        const EventPacket packet = GetEventPacket(cursor);
+        encoding = packet.encoding;
+        info_.width = static_cast<int>(std::min<std::uint32_t>(packet.width, 1 << 15));
+        info_.height = static_cast<int>(std::min<std::uint32_t>(packet.height, 1 << 15));
+        if (EventPacketDecoder::HostTime(encoding)) return;
+        events.clear();
+        decoder.Decode(packet, &events);
+        if (events.size() > 0) clock_.Add(events.t.front(), packet.stamp);
+      } else if (info_.width == 0) {
+        events.clear();
+        const SensorSizeInMessage size = GetEventArray(cursor, &events);
+        info_.width = static_cast<int>(std::min<std::uint32_t>(size.width, 1 << 15));
+        info_.height = static_cast<int>(std::min<std::uint32_t>(size.height, 1 << 15));
+      }
+    });
+  }
+  own_clock_ = packets && !EventPacketDecoder::HostTime(encoding);
+  clock_.Solve();
+  if (!imu_.name.empty()) streams_.imu_name = store_->name() + ": " + imu_.name;
+  info_.format = store_->container() + ", " + events_.type + (encoding.empty() ? "" : " (" + encoding + ")");
+  info_.sensor = events_.name;
+}
+
+std::unique_ptr<EventSource> RosRecording::Events(int width, int height) {
+  return std::make_unique<RosEvents>(*store_, events_, own_clock_ ? &clock_ : nullptr, width, height);
+}
+
+ImportStreams RosRecording::Streams() { return streams_; }
+
+}  // namespace evit::formats

@@ -1,0 +1,90 @@
+#include "tools/formats/ros2/bag_folder.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+
+#include "tools/formats/ros2/mcap_bag.h"
+#include "tools/formats/ros2/sqlite_bag.h"
+
+namespace evit::formats {
+namespace {
+
+class FolderPass : public MessagePass {
+ public:
+  FolderPass(const std::vector<std::unique_ptr<MessageStore>>& parts, const std::set<std::string>& topics)
+      : parts_(parts), topics_(topics) {}
+  bool Next(RosMessage* message) override {
+    while (true) {
+      if (pass_ && pass_->Next(message)) return true;
+      if (next_ == parts_.size()) return false;
+      pass_ = parts_[next_++]->Read(topics_);
+    }
+  }
+  double share() const override {
+    if (!pass_) return 0;
+    return (static_cast<double>(next_) - 1 + pass_->share()) / static_cast<double>(parts_.size());
+  }
+
+ private:
+  const std::vector<std::unique_ptr<MessageStore>>& parts_;
+  std::set<std::string> topics_;
+  std::unique_ptr<MessagePass> pass_;
+  std::size_t next_ = 0;
+};
+
+// ros2 bag numbers its parts: name_0, name_1, ... name_10.
+bool NaturalLess(const std::string& a, const std::string& b) {
+  return a.size() != b.size() ? a.size() < b.size() : a < b;
+}
+
+std::unique_ptr<MessageStore> OpenFile(const std::string& path) {
+  if (SqliteBag::Recognises(path)) return std::make_unique<SqliteBag>(path);
+  if (McapBag::Recognises(path)) return std::make_unique<McapBag>(path);
+  return nullptr;
+}
+
+}  // namespace
+
+BagFolder::BagFolder(std::vector<std::unique_ptr<MessageStore>> parts) : parts_(std::move(parts)) {
+  std::map<std::string, std::string> types;
+  for (const auto& part : parts_) {
+    if (part->cdr() != cdr())
+      throw std::runtime_error(part->name() + ": is of another version of ROS than " +
+                               parts_.front()->name());
+    for (const RosTopic& topic : part->topics()) types[topic.name] = topic.type;
+  }
+  for (const auto& [name, type] : types) topics_.push_back({name, type});
+}
+
+std::string BagFolder::name() const {
+  std::string names;
+  for (const auto& part : parts_) names += (names.empty() ? "" : ", ") + part->name();
+  return names;
+}
+
+std::unique_ptr<MessagePass> BagFolder::Read(const std::set<std::string>& topics) const {
+  return std::make_unique<FolderPass>(parts_, topics);
+}
+
+std::unique_ptr<MessageStore> OpenRos2Bag(const std::string& path) {
+  if (!std::filesystem::is_directory(path)) return OpenFile(path);
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(path)) {
+    const std::string extension = entry.path().extension().string();
+    if (entry.is_regular_file() && (extension == ".db3" || extension == ".mcap"))
+      files.push_back(entry.path().string());
+    if (extension == ".zstd")
+      throw std::runtime_error(entry.path().string() + ": is compressed as a file; run zstd -d on it first");
+  }
+  std::sort(files.begin(), files.end(), NaturalLess);
+  std::vector<std::unique_ptr<MessageStore>> parts;
+  for (const std::string& file : files) {
+    if (auto part = OpenFile(file)) parts.push_back(std::move(part));
+  }
+  if (parts.empty()) return nullptr;
+  return parts.size() == 1 ? std::move(parts.front()) : std::make_unique<BagFolder>(std::move(parts));
+}
+
+}  // namespace evit::formats

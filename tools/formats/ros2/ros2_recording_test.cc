@@ -1,0 +1,331 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <lz4frame.h>
+#include <sqlite3.h>
+#include <zstd.h>
+
+#include <numeric>
+
+#include "tests/helpers/all_events.h"
+#include "tests/helpers/temporary_folder.h"
+#include "tools/formats/ros/message_types.h"
+#include "tools/formats/ros/ros_recording.h"
+#include "tools/formats/ros2/bag_folder.h"
+
+namespace evit::formats {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+// Writes CDR as ROS 2 does.
+class Cdr {
+ public:
+  Cdr() : bytes_(std::string("\0\1\0\0", 4)) {}
+  template <typename Number>
+  Cdr& Put(Number value) {
+    while ((bytes_.size() - 4) % sizeof value != 0) bytes_ += '\0';
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    return *this;
+  }
+  Cdr& Text(const std::string& text) {
+    Put(static_cast<std::uint32_t>(text.size() + 1));
+    bytes_.append(text.c_str(), text.size() + 1);
+    return *this;
+  }
+  Cdr& Time(Utime t) {
+    return Put(static_cast<std::int32_t>(t / kMicrosPerSecond))
+        .Put(static_cast<std::uint32_t>(t % kMicrosPerSecond * 1000));
+  }
+  Cdr& Header(Utime t) { return Time(t).Text("camera"); }
+  Cdr& Doubles(const std::vector<double>& values) {
+    for (const double v : values) Put(v);
+    return *this;
+  }
+  Cdr& Raw(const std::string& bytes) {
+    Put(static_cast<std::uint32_t>(bytes.size()));
+    bytes_ += bytes;
+    return *this;
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+struct Message {
+  std::string topic, bytes;
+  Utime t;
+};
+
+constexpr Utime kStart = 1'700'000'000'000'000;
+
+std::string Words(const std::vector<std::uint16_t>& words) {
+  return {reinterpret_cast<const char*>(words.data()), 2 * words.size()};
+}
+
+std::string Packet(Utime stamp, const std::string& encoding, std::uint64_t time_base,
+                   const std::string& data) {
+  return Cdr()
+      .Header(stamp)
+      .Put(std::uint32_t{480})
+      .Put(std::uint32_t{640})
+      .Put(std::uint64_t{7})
+      .Put(time_base)
+      .Text(encoding)
+      .Put(std::uint8_t{0})
+      .Raw(data)
+      .bytes();
+}
+
+const std::map<std::string, std::string> kTypes = {{"/cam/events", "event_camera_msgs/msg/EventPacket"},
+                                                   {"/imu", "sensor_msgs/msg/Imu"},
+                                                   {"/odom", "nav_msgs/msg/Odometry"}};
+
+// Two packets of a sensor whose clock stands at 5 s when the host's is at kStart, with IMU and truth.
+std::vector<Message> Recording() {
+  std::vector<Message> messages;
+  for (int k = 0; k < 2; ++k) {
+    const Utime sensor = 5'000'000 + 10'000 * k;
+    const auto high = static_cast<std::uint16_t>(0x8000 | (sensor >> 12 & 0xFFF));
+    messages.push_back({"/cam/events",
+                        Packet(kStart + 10'000 * k, "evt3", 0,
+                               Words({high, static_cast<std::uint16_t>(0x6000 | (sensor & 0xFFF)), 0x0010,
+                                      0x2805, 0x2006, high})),
+                        kStart + 10'000 * k + 300});
+    const std::vector<double> covariance(9, 0);
+    messages.push_back({"/imu",
+                        Cdr()
+                            .Header(kStart + 5'000 * k)
+                            .Doubles({0, 0, 0, 1})
+                            .Doubles(covariance)
+                            .Doubles({0.1, 0.2, 0.3})
+                            .Doubles(covariance)
+                            .Doubles({0, 0, 9.81})
+                            .Doubles(covariance)
+                            .bytes(),
+                        kStart + 5'000 * k});
+    messages.push_back({"/odom",
+                        Cdr()
+                            .Header(kStart + 4'000 * k)
+                            .Text("body")
+                            .Doubles({1, 2, 3, 0, 0, 0, 1})
+                            .Doubles(std::vector<double>(36, 0))
+                            .bytes(),
+                        kStart + 4'000 * k});
+  }
+  return messages;
+}
+
+void WriteSqlite(const std::string& path, const std::vector<Message>& messages) {
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
+  const auto run = [&](const std::string& sql) {
+    ASSERT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sql;
+  };
+  run("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT, "
+      "offered_qos_profiles TEXT)");
+  run("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB)");
+  std::map<std::string, int> ids;
+  for (const auto& [topic, type] : kTypes) {
+    ids[topic] = static_cast<int>(ids.size()) + 1;
+    run("INSERT INTO topics VALUES(" + std::to_string(ids[topic]) + ",'" + topic + "','" + type +
+        "','cdr','')");
+  }
+  for (const Message& m : messages) {
+    sqlite3_stmt* insert = nullptr;
+    sqlite3_prepare_v2(db, "INSERT INTO messages(topic_id,timestamp,data) VALUES(?,?,?)", -1, &insert,
+                       nullptr);
+    sqlite3_bind_int(insert, 1, ids[m.topic]);
+    sqlite3_bind_int64(insert, 2, 1000 * m.t);
+    sqlite3_bind_blob(insert, 3, m.bytes.data(), static_cast<int>(m.bytes.size()), SQLITE_STATIC);
+    ASSERT_EQ(sqlite3_step(insert), SQLITE_DONE);
+    sqlite3_finalize(insert);
+  }
+  sqlite3_close(db);
+}
+
+template <typename Number>
+std::string Bytes(Number value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+std::string Text(const std::string& text) { return Bytes(static_cast<std::uint32_t>(text.size())) + text; }
+std::string Record(std::uint8_t type, const std::string& contents) {
+  return Bytes(type) + Bytes(std::uint64_t{contents.size()}) + contents;
+}
+
+std::string Compress(const std::string& compression, const std::string& in) {
+  if (compression.empty()) return in;
+  const bool lz4 = compression == "lz4";
+  std::string out(lz4 ? LZ4F_compressFrameBound(in.size(), nullptr) : ZSTD_compressBound(in.size()), '\0');
+  out.resize(lz4 ? LZ4F_compressFrame(out.data(), out.size(), in.data(), in.size(), nullptr)
+                 : ZSTD_compress(out.data(), out.size(), in.data(), in.size(), 3));
+  return out;
+}
+
+// `compression`: of the one chunk; "-": no chunk. With or without a summary.
+std::string Mcap(const std::vector<Message>& messages, const std::string& compression, bool summary) {
+  const std::string magic("\x89MCAP0\r\n", 8);
+  std::string definitions, records;
+  std::map<std::string, std::uint16_t> ids;
+  for (const auto& [topic, type] : kTypes) {
+    const auto id = static_cast<std::uint16_t>(ids.size() + 1);
+    ids[topic] = id;
+    definitions += Record(0x03, Bytes(id) + Text(type) + Text("ros2msg") + Text(""));
+    definitions += Record(0x04, Bytes(id) + Bytes(id) + Text(topic) + Text("cdr") + Bytes(std::uint32_t{0}));
+  }
+  records = definitions;
+  for (const Message& m : messages)
+    records += Record(0x05, Bytes(ids[m.topic]) + Bytes(std::uint32_t{0}) + Bytes(1000 * m.t) +
+                                Bytes(1000 * m.t) + m.bytes);
+  std::string out = magic + Record(0x01, Text("ros2") + Text("test"));
+  if (compression == "-") {
+    out += records;
+  } else {
+    const std::string packed = Compress(compression, records);
+    out += Record(0x06, Bytes(std::uint64_t{0}) + Bytes(std::uint64_t{1}) +
+                            Bytes(std::uint64_t{records.size()}) + Bytes(std::uint32_t{0}) +
+                            Text(compression) + Bytes(std::uint64_t{packed.size()}) + packed);
+  }
+  out += Record(0x0F, Bytes(std::uint32_t{0}));
+  const std::uint64_t at = summary ? out.size() : 0;
+  if (summary) out += definitions;
+  return out + Record(0x02, Bytes(at) + Bytes(std::uint64_t{0}) + Bytes(std::uint32_t{0})) + magic;
+}
+
+void ExpectWhole(const std::string& path) {
+  RosRecording recording(OpenRos2Bag(path), {});
+  EXPECT_EQ(recording.info().width, 640);
+  EXPECT_EQ(recording.info().height, 480);
+  const EventArray e = AllEvents(&recording, 640, 480);
+  EXPECT_EQ(e.t, (std::vector<Utime>{kStart, kStart, kStart + 10'000, kStart + 10'000}));
+  EXPECT_EQ(e.x, (std::vector<std::uint16_t>{5, 6, 5, 6}));
+  EXPECT_EQ(e.y, std::vector<std::uint16_t>(4, 16));
+  EXPECT_EQ(e.p, (std::vector<std::uint8_t>{1, 0, 1, 0}));
+  const ImportStreams streams = recording.Streams();
+  ASSERT_EQ(streams.imu.size(), 2U);
+  EXPECT_EQ(streams.imu[1].t, kStart + 5'000);
+  EXPECT_EQ(streams.imu[1].gyro, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(streams.imu[1].accel, Eigen::Vector3d(0, 0, 9.81));
+  ASSERT_EQ(streams.truth.size(), 2U);
+  EXPECT_EQ(streams.truth[1].t, kStart + 4'000);
+  EXPECT_EQ(streams.truth[1].pose.p, Eigen::Vector3d(1, 2, 3));
+}
+
+TEST(Ros2Recording, SqliteBagsAreRead) {
+  const TemporaryFolder folder("ros2");
+  WriteSqlite(folder.File("a.db3"), Recording());
+  ExpectWhole(folder.File("a.db3"));
+}
+
+TEST(Ros2Recording, McapFilesAreReadPlainAndInChunks) {
+  const TemporaryFolder folder("ros2");
+  for (const char* compression : {"-", "", "lz4", "zstd"}) {
+    for (const bool summary : {false, true}) {
+      SCOPED_TRACE(std::string("compression ") + compression + (summary ? ", summary" : ""));
+      ExpectWhole(folder.Write("a.mcap", Mcap(Recording(), compression, summary)));
+    }
+  }
+  const std::string whole = Mcap(Recording(), "-", true);
+  const std::string cut = folder.Write("cut.mcap", whole.substr(0, whole.size() * 2 / 3));
+  RosRecording recording(OpenRos2Bag(cut), {});
+  EXPECT_GE(AllEvents(&recording, 640, 480).size(), 2U);
+  std::string damaged = Mcap(Recording(), "zstd", true);
+  damaged[200] ^= 1;
+  const std::string path = folder.Write("damaged.mcap", damaged);
+  EXPECT_THAT([&] { RosRecording(OpenRos2Bag(path), {}); },
+              ThrowsMessage<std::runtime_error>(HasSubstr(path)));
+}
+
+TEST(Ros2Recording, PartsOfAFolderAreOneRecording) {
+  const TemporaryFolder folder("ros2");
+  const std::vector<Message> all = Recording();
+  std::filesystem::create_directories(folder.File("bag"));
+  WriteSqlite(folder.File("bag/bag_10.db3"), {all.begin() + 3, all.end()});
+  WriteSqlite(folder.File("bag/bag_9.db3"), {all.begin(), all.begin() + 3});
+  ExpectWhole(folder.File("bag"));
+}
+
+TEST(Ros2Recording, EventArraysAreRead) {
+  const TemporaryFolder folder("ros2");
+  Cdr array;
+  array.Header(kStart).Put(std::uint32_t{260}).Put(std::uint32_t{346}).Put(std::uint32_t{3});
+  for (std::uint16_t k = 0; k < 3; ++k)
+    array.Put(k)
+        .Put(static_cast<std::uint16_t>(2 * k))
+        .Time(kStart + k)
+        .Put(static_cast<std::uint8_t>(k % 2));
+  std::vector<Message> messages = Recording();
+  messages[0].bytes = array.bytes();
+  messages.resize(1);
+  WriteSqlite(folder.File("a.db3"), messages);
+  sqlite3* db = nullptr;
+  sqlite3_open(folder.File("a.db3").c_str(), &db);
+  sqlite3_exec(db, "UPDATE topics SET type='dvs_msgs/msg/EventArray' WHERE name='/cam/events'", nullptr,
+               nullptr, nullptr);
+  sqlite3_close(db);
+  RosRecording recording(OpenRos2Bag(folder.File("a.db3")), {});
+  EXPECT_EQ(recording.info().width, 346);
+  const EventArray e = AllEvents(&recording, 346, 260);
+  EXPECT_EQ(e.t, (std::vector<Utime>{kStart, kStart + 1, kStart + 2}));
+  EXPECT_EQ(e.x, (std::vector<std::uint16_t>{0, 1, 2}));
+  EXPECT_EQ(e.y, (std::vector<std::uint16_t>{0, 2, 4}));
+  EXPECT_EQ(e.p, (std::vector<std::uint8_t>{0, 1, 0}));
+}
+
+TEST(Ros2Recording, WhatIsMissingOrWrongIsNamed) {
+  const TemporaryFolder folder("ros2");
+  std::vector<Message> messages = Recording();
+  messages[0].bytes.resize(60);
+  WriteSqlite(folder.File("a.db3"), messages);
+  EXPECT_THAT([&] { RosRecording(OpenRos2Bag(folder.File("a.db3")), {}); },
+              ThrowsMessage<std::runtime_error>(
+                  AllOf(HasSubstr("a.db3: /cam/events, message"), HasSubstr("the bag is damaged"))));
+  EXPECT_THAT(
+      [&] {
+        RosRecording(OpenRos2Bag(folder.File("a.db3")), {"", "/odom", ""});
+      },
+      ThrowsMessage<std::runtime_error>(
+          AllOf(HasSubstr("--imu-topic /odom"), HasSubstr("/imu (sensor_msgs/Imu)"))));
+  EXPECT_EQ(OpenRos2Bag(folder.Write("a.txt", "no bag")), nullptr);
+}
+
+// Sums over all events as the message package's own test states them (stamps of the sensor, ns).
+TEST(Ros2Recording, ARealBagOfEvt3PacketsHasItsPublishedSums) {
+  const std::string path = SharedFile("formats/evt3_trigger_0.db3");
+  if (path.empty()) GTEST_SKIP() << "no recordings (EVIT_SHARED_DATA)";
+  const auto store = OpenRos2Bag(path);
+  ASSERT_NE(store, nullptr);
+  const auto pass = store->Read({"/event_camera/events"});
+  EventPacketDecoder decoder;
+  EventArray e;
+  RosMessage message;
+  while (pass->Next(&message))
+    decoder.Decode(GetEventPacket(RosCursor(message.data, message.size, true)), &e);
+  EXPECT_EQ(1000 * std::accumulate(e.t.begin(), e.t.end(), Utime{0}), 1'222'326'831'810'000);
+  EXPECT_EQ(std::accumulate(e.x.begin(), e.x.end(), 0), 42'078'718);
+  EXPECT_EQ(std::accumulate(e.y.begin(), e.y.end(), 0), 31'656'267);
+  EXPECT_EQ(std::accumulate(e.p.begin(), e.p.end(), 0), 41'439);
+}
+
+TEST(Ros2Recording, RealBagsAreReadWhole) {
+  for (const auto& [name, width, height] :
+       {std::tuple("formats/evt3_trigger_0.db3", 1280, 720), std::tuple("formats/events_1.db3", 640, 480)}) {
+    const std::string path = SharedFile(name);
+    if (path.empty()) GTEST_SKIP() << "no recordings (EVIT_SHARED_DATA)";
+    RosRecording recording(OpenRos2Bag(path), {});
+    EXPECT_EQ(recording.info().width, width);
+    EXPECT_EQ(recording.info().height, height);
+    DropCounts dropped;
+    const EventArray e = AllEvents(&recording, width, height, &dropped);
+    EXPECT_GT(e.size(), 50'000U);
+    EXPECT_LT(dropped.total(), 10);
+    std::printf("%s: %zu events, %.6f s, dropped %lld (unstamped %lld)\n", name, e.size(),
+                1e-6 * static_cast<double>(e.t.back() - e.t.front()), static_cast<long long>(dropped.total()),
+                static_cast<long long>(dropped.unstamped));
+  }
+}
+
+}  // namespace
+}  // namespace evit::formats

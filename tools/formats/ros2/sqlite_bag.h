@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tools/formats/ros/message_store.h"
+
+namespace evit::formats {
+
+/// A bag of ROS 2 in SQLite (rosbag2's .db3): tables `topics` and `messages`.
+class SqliteBag : public MessageStore {
+ public:
+  static bool Recognises(const std::string& path);
+
+  /// Throws std::runtime_error naming the file where it is no such database.
+  explicit SqliteBag(const std::string& path);
+  std::string name() const override { return path_; }
+  std::string container() const override { return "ROS 2 bag (SQLite)"; }
+  bool cdr() const override { return true; }
+  const std::vector<RosTopic>& topics() const override { return topics_; }
+  std::unique_ptr<MessagePass> Read(const std::set<std::string>& topics) const override;
+
+ private:
+  std::string path_;
+  std::vector<RosTopic> topics_;
+};
+
+}  // namespace evit::formats
