@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "common/config/rig_file.h"
-#include "common/evaluation/decimal_time.h"
+#include "common/files/decimal_time.h"
 #include "tools/evit/import_options.h"
 #include "tools/evit/options.h"
 
@@ -24,7 +24,7 @@ void PrintStreams(const formats::ImportSummary& s) {
   if (s.n_imu > 0) {
     std::printf("IMU: %.0f Hz\n", s.imu_rate_hz);
   } else {
-    std::printf("no IMU in the recording: evit run needs one\n");
+    std::printf("no IMU: evit run needs one; import again with --imu FILE where another file holds it\n");
   }
 }
 
@@ -37,10 +37,16 @@ void AddImportRecording(CLI::App* import) {
     std::string size, rig;
   };
   auto o = std::make_shared<Options>();
-  import->add_option("FILE", o->job.paths, "Recording of any format that is recognised by its contents");
+  import->add_option("FILE", o->job.paths,
+                     "Recording of any format, recognised by its contents: files, or a folder");
   o->shared.AddTo(import, false);
   import->add_option("--size", o->size, "WxH of the sensor in pixels, where the recording does not say it");
   import->add_option("--rig", o->rig, "Calibration; its T_marker_body turns the truth's body into the IMU's");
+  import->add_option("--imu", o->job.imu, "Another file with the IMU: a table, HDF5, a bag, ...");
+  import->add_option("--imu-offset", o->job.imu_offset,
+                     "Seconds to add to IMU stamps to get the clock of the events");
+  import->add_option("--truth", o->job.truth,
+                     "Another file with the truth: a table (TUM, EuRoC, ...), HDF5, a bag");
   formats::StreamChoice& choice = o->job.choice;
   import->add_option("--events-topic", choice.events, "Of a bag: events to take (default: the only ones)");
   import->add_option("--imu-topic", choice.imu, "Of a bag: IMU to take (default: the only one)");

@@ -8,16 +8,20 @@
 #include "tools/formats/aedat/aedat4_recording.h"
 #include "tools/formats/aedat/aedat_recording.h"
 #include "tools/formats/bag/rosbag_store.h"
+#include "tools/formats/hdf5/h5_recording.h"
 #include "tools/formats/prophesee/raw_recording.h"
 #include "tools/formats/ros/ros_recording.h"
 #include "tools/formats/ros2/bag_folder.h"
+#include "tools/formats/rpg/text_recording.h"
 
 namespace evit::formats {
 namespace {
 
 constexpr char kKnown[] =
     "known are Metavision RAW (EVT 2.0, 2.1, 3.0) and DAT, AEDAT 2.0, 3.1 and 4.0, bags of ROS 1 and of "
-    "ROS 2 (SQLite, MCAP); evit import vector and rpg read folders of VECtor and RPG";
+    "ROS 2 (SQLite, MCAP), HDF5 of DSEC, TUM-VIE, M3ED, MVSEC, EDS and Prophesee, text (t x y p); evit "
+    "import vector and rpg "
+    "read folders of VECtor and RPG";
 
 std::unique_ptr<Recording> OpenFile(const std::string& path) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file");
@@ -26,6 +30,7 @@ std::unique_ptr<Recording> OpenFile(const std::string& path) {
   if (RawRecording::Recognises(path)) return std::make_unique<RawRecording>(path);
   if (Aedat4Recording::Recognises(path)) return std::make_unique<Aedat4Recording>(path);
   if (AedatRecording::Recognises(path)) return std::make_unique<AedatRecording>(path);
+  if (TextRecording::Recognises(path)) return std::make_unique<TextRecording>(path);
   throw std::runtime_error(path + ": its contents are of no format that is recognised; " + kKnown);
 }
 
@@ -56,9 +61,17 @@ std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths, 
   if (auto bags = OpenBags(paths))
     return std::make_unique<RosRecording>(std::move(bags),
                                           RosTopics{choice.events, choice.imu, choice.truth});
+  if (H5Recording::Recognises(paths.front())) return std::make_unique<H5Recording>(paths, choice.events);
   if (paths.size() != 1)
     throw std::runtime_error(paths[1] + ": a recording of the format of " + paths.front() + " is one file");
   return OpenFile(paths.front());
+}
+
+bool IsRecording(const std::string& path) {
+  if (OpenRos2Bags({path})) return true;
+  return std::filesystem::is_regular_file(path) &&
+         (RosbagStore::Recognises(path) || H5Recording::Recognises(path) || RawRecording::Recognises(path) ||
+          Aedat4Recording::Recognises(path) || AedatRecording::Recognises(path));
 }
 
 void MeasureSize(Recording* recording, int* width, int* height) {

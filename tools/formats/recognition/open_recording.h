@@ -19,6 +19,9 @@ struct StreamChoice {
 std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths,
                                          const StreamChoice& choice = {});
 
+/// Whether a file or folder is a recording that OpenRecording would recognise as binary, by itself.
+bool IsRecording(const std::string& path);
+
 /// The size of a sensor that its recording does not name: the smallest known one that holds all its events.
 /// Reads them all.
 void MeasureSize(Recording* recording, int* width, int* height);

@@ -85,11 +85,6 @@ RosRecording::RosRecording(std::unique_ptr<MessageStore> store, const RosTopics&
   std::vector<std::string> types(std::begin(kEventPacketTypes), std::end(kEventPacketTypes));
   types.insert(types.end(), std::begin(kEventArrayTypes), std::end(kEventArrayTypes));
   events_ = ChooseTopic(*store_, types, topics.events, "--events-topic");
-  if (events_.name.empty()) {
-    throw std::runtime_error(
-        store_->name() + ": holds no events (EventPacket of event_camera_msgs, EventArray of dvs_msgs or " +
-        "prophesee_event_msgs); topics: " + TopicList(*store_));
-  }
   imu_ = ChooseTopic(*store_, {kImuType}, topics.imu, "--imu-topic");
   truth_ =
       ChooseTopic(*store_, {std::begin(kPoseTypes), std::end(kPoseTypes)}, topics.truth, "--truth-topic");
@@ -99,8 +94,8 @@ RosRecording::RosRecording(std::unique_ptr<MessageStore> store, const RosTopics&
 // One pass for all that is wanted before the events: size and clock of the sensor, IMU and truth.
 void RosRecording::Scan() {
   const bool packets = IsOneOf(events_.type, kEventPacketTypes);
-  std::set<std::string> topics = {events_.name};
-  for (const RosTopic& topic : {imu_, truth_}) {
+  std::set<std::string> topics;
+  for (const RosTopic& topic : {events_, imu_, truth_}) {
     if (!topic.name.empty()) topics.insert(topic.name);
   }
   std::unique_ptr<MessagePass> pass = store_->Read(topics);
@@ -142,6 +137,12 @@ void RosRecording::Scan() {
 }
 
 std::unique_ptr<EventSource> RosRecording::Events(int width, int height) {
+  if (events_.name.empty()) {
+    throw std::runtime_error(store_->name() +
+                             ": holds no events (EventPacket of event_camera_msgs, EventArray of dvs_msgs or "
+                             "prophesee_event_msgs); topics: " +
+                             TopicList(*store_));
+  }
   return std::make_unique<RosEvents>(*store_, events_, own_clock_ ? &clock_ : nullptr, width, height);
 }
 

@@ -21,7 +21,8 @@ struct RosTopics {
 /// (ClockFit): those of IMU and truth are the host's.
 class RosRecording : public Recording {
  public:
-  /// Throws std::runtime_error naming bag, topics and option: no events, or several topics to choose from.
+  /// Throws std::runtime_error naming bag, topics and option: several to choose from. A bag without events
+  /// may still have the other streams; Events() then throws.
   RosRecording(std::unique_ptr<MessageStore> store, const RosTopics& topics);
 
   RecordingInfo info() const override { return info_; }

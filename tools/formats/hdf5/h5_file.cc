@@ -1,0 +1,195 @@
+#include "tools/formats/hdf5/h5_file.h"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+#include "tools/formats/hdf5/h5_filters.h"
+#include "tools/formats/vector/h5_handle.h"
+
+namespace evit::formats {
+namespace {
+
+constexpr hsize_t kMaxRead = hsize_t{1} << 31;  // bytes at a time
+constexpr std::size_t kChunkCache = 64U
+                                    << 20;  // bytes: a chunk is decompressed once, not for each part of it
+constexpr std::size_t kMaxDatasets = 10'000;
+
+template <typename Number>
+hid_t MemoryType();
+template <>
+hid_t MemoryType<std::uint16_t>() {
+  return H5T_NATIVE_UINT16;
+}
+template <>
+hid_t MemoryType<std::int64_t>() {
+  return H5T_NATIVE_INT64;
+}
+template <>
+hid_t MemoryType<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
+
+}  // namespace
+
+struct H5Rows::Impl {
+  std::shared_ptr<void> file;  // stays open as long as this is used
+  std::string path, name;
+  H5Handle dataset;
+  std::vector<hsize_t> shape;
+  std::size_t columns = 1, chunk_rows = 1, bytes = 0;
+  H5T_class_t type = H5T_NO_CLASS;
+  bool is_signed = false;
+
+  void ReadInto(std::size_t begin, std::size_t n, hid_t memory_type, void* out) const;
+  std::string WhyUnreadable() const;
+};
+
+// A filter that is not there is the likeliest reason; its number says which.
+std::string H5Rows::Impl::WhyUnreadable() const {
+  const H5Handle properties(H5Dget_create_plist(dataset.get()), H5Pclose);
+  for (int k = 0; k < H5Pget_nfilters(properties.get()); ++k) {
+    std::size_t n_values = 0;
+    unsigned flags = 0, config = 0;
+    const H5Z_filter_t filter = H5Pget_filter2(properties.get(), static_cast<unsigned>(k), &flags, &n_values,
+                                               nullptr, 0, nullptr, &config);
+    if (H5Zfilter_avail(filter) <= 0) return "is compressed with " + FilterRemedy(filter);
+  }
+  return "cannot be read: the file is damaged; download it again";
+}
+
+void H5Rows::Impl::ReadInto(std::size_t begin, std::size_t n, hid_t memory_type, void* out) const {
+  std::vector<hsize_t> start(shape.size(), 0), count = shape;
+  start[0] = begin;
+  count[0] = n;
+  const H5Handle source(H5Dget_space(dataset.get()), H5Sclose),
+      target(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
+  H5Sselect_hyperslab(source.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  if (H5Dread(dataset.get(), memory_type, target.get(), source.get(), H5P_DEFAULT, out) < 0)
+    throw std::runtime_error(path + ": dataset " + name + " " + WhyUnreadable());
+}
+
+const std::string& H5Rows::name() const { return impl_->name; }
+std::size_t H5Rows::rows() const { return impl_->shape[0]; }
+std::size_t H5Rows::columns() const { return impl_->columns; }
+std::size_t H5Rows::chunk_rows() const { return impl_->chunk_rows; }
+bool H5Rows::is_integer() const { return impl_->type == H5T_INTEGER || impl_->type == H5T_ENUM; }
+bool H5Rows::is_signed() const { return impl_->is_signed; }
+bool H5Rows::is_compound() const { return impl_->type == H5T_COMPOUND; }
+std::size_t H5Rows::bytes() const { return impl_->bytes; }
+void H5Rows::Fail(const std::string& what) const {
+  throw std::runtime_error(impl_->path + ": " + impl_->name + ": " + what);
+}
+
+template <typename Number>
+void H5Rows::Read(std::size_t begin, std::size_t n, std::vector<Number>* out) const {
+  if (n * columns() * sizeof(Number) > kMaxRead) Fail("is too large to be read at once");
+  if (impl_->type != H5T_INTEGER && impl_->type != H5T_ENUM && impl_->type != H5T_FLOAT)
+    Fail("does not hold numbers");
+  out->resize(n * columns());
+  if (n > 0) impl_->ReadInto(begin, n, MemoryType<Number>(), out->data());
+}
+template void H5Rows::Read(std::size_t, std::size_t, std::vector<std::uint16_t>*) const;
+template void H5Rows::Read(std::size_t, std::size_t, std::vector<std::int64_t>*) const;
+template void H5Rows::Read(std::size_t, std::size_t, std::vector<double>*) const;
+
+template <typename Number>
+std::vector<Number> H5Rows::ReadAll() const {
+  std::vector<Number> values;
+  Read(0, rows(), &values);
+  return values;
+}
+template std::vector<std::int64_t> H5Rows::ReadAll() const;
+template std::vector<double> H5Rows::ReadAll() const;
+
+bool H5File::Recognises(const std::string& path) {
+  return std::filesystem::is_regular_file(path) && H5Fis_hdf5(path.c_str()) > 0;
+}
+
+H5File::H5File(const std::string& path) : path_(path) {
+  RegisterFilters();
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0)
+    throw std::runtime_error(path + ": is not a complete HDF5 file (cut off or damaged); download it again");
+  file_ = std::shared_ptr<void>(nullptr, [file](void*) { H5Fclose(file); });
+  const auto visit = [](hid_t, const char* name, const H5O_info_t* info, void* list) -> herr_t {
+    auto* names = static_cast<std::vector<std::string>*>(list);
+    if (info->type == H5O_TYPE_DATASET) names->push_back(name);
+    return names->size() > kMaxDatasets ? 1 : 0;
+  };
+  H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_NATIVE, visit, &datasets_, H5O_INFO_BASIC);
+}
+
+bool H5File::Has(const std::string& name) const {
+  return std::find(datasets_.begin(), datasets_.end(), name) != datasets_.end();
+}
+
+H5Rows H5File::Open(const std::string& name) const {
+  const H5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
+                      H5Fclose);  // the same file once more
+  auto rows = std::make_shared<H5Rows::Impl>();
+  rows->file = file_;
+  rows->path = path_;
+  rows->name = name;
+  const H5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk_cache(access.get(), 521, kChunkCache, 1);
+  rows->dataset = H5Handle(H5Dopen2(file.get(), name.c_str(), access.get()), H5Dclose);
+  if (!rows->dataset.ok()) throw std::runtime_error(path_ + ": dataset " + name + " is missing");
+  const H5Handle space(H5Dget_space(rows->dataset.get()), H5Sclose),
+      type(H5Dget_type(rows->dataset.get()), H5Tclose),
+      properties(H5Dget_create_plist(rows->dataset.get()), H5Pclose);
+  const int rank = std::max(0, H5Sget_simple_extent_ndims(space.get()));
+  rows->shape.resize(static_cast<std::size_t>(std::max(1, rank)), 1);
+  if (rank > 0) H5Sget_simple_extent_dims(space.get(), rows->shape.data(), nullptr);
+  for (std::size_t k = 1; k < rows->shape.size(); ++k) {
+    if (rows->shape[k] == 0 || rows->shape[k] > 4096)
+      throw std::runtime_error(path_ + ": dataset " + name + " has no rows of numbers");
+    rows->columns *= rows->shape[k];
+  }
+  if (H5Pget_layout(properties.get()) == H5D_CHUNKED) {
+    std::vector<hsize_t> chunk(rows->shape.size(), 1);
+    H5Pget_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data());
+    rows->chunk_rows = std::max<hsize_t>(1, chunk[0]);
+  }
+  rows->type = H5Tget_class(type.get());
+  rows->bytes = H5Tget_size(type.get());
+  rows->is_signed = rows->type == H5T_INTEGER && H5Tget_sign(type.get()) != H5T_SGN_NONE;
+  return H5Rows(rows);
+}
+
+std::string H5File::Attribute(const std::string& name) const {
+  const H5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (H5Aexists(file.get(), name.c_str()) <= 0) return "";
+  const H5Handle attribute(H5Aopen(file.get(), name.c_str(), H5P_DEFAULT), H5Aclose);
+  const H5Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
+  if (H5Tget_class(type.get()) != H5T_STRING || H5Sget_simple_extent_npoints(space.get()) != 1) return "";
+  if (H5Tis_variable_str(type.get()) > 0) {
+    char* text = nullptr;
+    const H5Handle memory(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(memory.get(), H5T_VARIABLE);
+    H5Tset_cset(memory.get(), H5Tget_cset(type.get()));
+    if (H5Aread(attribute.get(), memory.get(), &text) < 0 || text == nullptr) return "";
+    std::string value = text;
+    H5free_memory(text);
+    return value;
+  }
+  std::string value(std::min<std::size_t>(H5Tget_size(type.get()), 1 << 16), '\0');
+  if (value.size() != H5Tget_size(type.get()) || H5Aread(attribute.get(), type.get(), value.data()) < 0)
+    return "";
+  return value.substr(0, value.find('\0'));
+}
+
+void H5File::ReadEvents(const H5Rows& rows, std::size_t begin, std::size_t n, std::vector<H5Event>* out) {
+  const H5Handle type(H5Tcreate(H5T_COMPOUND, sizeof(H5Event)), H5Tclose);
+  H5Tinsert(type.get(), "x", HOFFSET(H5Event, x), H5T_NATIVE_UINT16);
+  H5Tinsert(type.get(), "y", HOFFSET(H5Event, y), H5T_NATIVE_UINT16);
+  H5Tinsert(type.get(), "p", HOFFSET(H5Event, p), H5T_NATIVE_INT16);
+  H5Tinsert(type.get(), "t", HOFFSET(H5Event, t), H5T_NATIVE_INT64);
+  out->resize(n);
+  if (n > 0) rows.impl_->ReadInto(begin, n, type.get(), out->data());
+}
+
+}  // namespace evit::formats
