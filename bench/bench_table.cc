@@ -1,4 +1,5 @@
-// Makes the tables and curves of docs/results/performance.md from the JSON files of the benchmarks and of `evit run`.
+// Makes the tables and curves of docs/results/performance.md from the JSON files of the benchmarks and of
+// `evit run`.
 #include <iostream>
 
 #include "bench/curves.h"

@@ -5,8 +5,8 @@
 
 namespace evit {
 
-/// Names of all channels, with an optional prefix so that several pipelines share a bus. docs/reference/channels.md
-/// says who sends what, and a test keeps it true to this list.
+/// Names of all channels, with an optional prefix so that several pipelines share a bus.
+/// docs/reference/channels.md says who sends what, and a test keeps it true to this list.
 struct Channels {
   explicit Channels(std::string prefix_of_all = "") : prefix(std::move(prefix_of_all)) {}
 

@@ -17,10 +17,10 @@ namespace {
 
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0";
 
-/// Polls until `done` or five seconds have passed.
+/// Polls until `done`, but for no more than a minute.
 template <typename Done>
 void PollUntil(Bus* bus, const Done& done) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (!done() && std::chrono::steady_clock::now() < end) bus->Poll(10);
 }
 
@@ -47,12 +47,20 @@ TEST(LcmBus, OnePollHandsOutAllThatIsThere) {
   bus->Subscribe(
       "A", [&](const std::string&, const std::uint8_t* data, std::size_t) { heard.push_back(data[0]); });
   const int n = 200;  // far more than LCM's own queue of 30
-  for (int i = 0; i < n; ++i) {
-    const auto byte = static_cast<std::uint8_t>(i);
-    sender->Publish("A", &byte, 1);
+  // LCM's thread takes them from the kernel in its own time: on a busy host it needs longer.
+  int at_once = 0;
+  for (auto wait = std::chrono::milliseconds(100); at_once < n && wait < std::chrono::seconds(30);
+       wait *= 4) {
+    heard.clear();
+    for (int i = 0; i < n; ++i) {
+      const auto byte = static_cast<std::uint8_t>(i);
+      sender->Publish("A", &byte, 1);
+    }
+    std::this_thread::sleep_for(wait);
+    at_once = bus->Poll(1000);
+    PollUntil(bus.get(), [&] { return heard.size() >= static_cast<std::size_t>(n); });
   }
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  EXPECT_EQ(bus->Poll(1000), n);
+  EXPECT_EQ(at_once, n);
   ASSERT_EQ(heard.size(), static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) EXPECT_EQ(heard[i], i);
   EXPECT_EQ(bus->Poll(0), 0);
@@ -63,17 +71,24 @@ TEST(LcmBus, WhatWaitsIsBoundedAndDropsAreCounted) {
   const auto sender = OpenLcmBus(kUrl);
   const std::vector<std::uint8_t> message(60'000);
   const int n = 400;  // 24 MB: more than the 16 MiB that may wait for one subscription
-  int heard = 0;
+  const int most = (16 << 20) / 60'000;
+  int heard = 0, sent = 0, waited = 0;
   bus->Subscribe("A", [&](const std::string&, const std::uint8_t*, std::size_t) { ++heard; });
-  for (int i = 0; i < n; ++i) {
-    sender->Publish("A", message.data(), message.size());
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // the kernel's buffer must not lose
+  // The kernel's buffer may lose some where LCM's thread is slow to empty it, on a busy host: then slower.
+  for (auto pause = std::chrono::milliseconds(1); waited < most && pause < std::chrono::milliseconds(100);
+       pause *= 4) {
+    for (int i = 0; i < n; ++i, ++sent) {
+      sender->Publish("A", message.data(), message.size());
+      std::this_thread::sleep_for(pause);
+    }
+    std::this_thread::sleep_for(100 * pause);
+    waited = bus->Poll(1000);
+    while (bus->Poll(100) > 0) {
+    }
   }
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  PollUntil(bus.get(), [&] { return heard + bus->queue_drops() >= n; });
-  EXPECT_EQ(heard, (16 << 20) / 60'000);
+  EXPECT_EQ(waited, most);
   EXPECT_GT(bus->queue_drops(), 0);
-  EXPECT_LE(heard + bus->queue_drops(), n);
+  EXPECT_LE(heard + bus->queue_drops(), sent);
 }
 
 TEST(LcmBus, SaysWhatBufferTheKernelGranted) {
@@ -104,7 +119,7 @@ TEST(LcmBus, ALargeMessageArrivesWhole) {
   bus->Subscribe("KEYFRAME", [&](const std::string&, const std::uint8_t* data, std::size_t size) {
     heard.assign(data, data + size);
   });
-  for (int attempt = 0; attempt < 20 && heard.empty();
+  for (int attempt = 0; attempt < 100 && heard.empty();
        ++attempt) {  // a small receive buffer may lose fragments
     bus->Publish("KEYFRAME", message.data(), message.size());
     bus->Poll(200);

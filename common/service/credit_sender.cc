@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "common/bus/codec.h"
 #include "common/service/status_reporter.h"
@@ -9,8 +10,8 @@
 namespace evit {
 
 CreditSender::CreditSender(Bus* bus, const Channels& channels, const std::string& consumer,
-                           std::int64_t epoch)
-    : bus_(bus), channel_(channels.credit), message_() {
+                           std::int64_t epoch, std::function<std::int64_t()> clock)
+    : bus_(bus), channel_(channels.credit), clock_(std::move(clock)), message_() {
   message_.epoch = epoch;
   message_.seq = 0;
   message_.consumer = consumer;
@@ -37,7 +38,7 @@ std::int64_t CreditSender::BytesPerCredit() const {
 }
 
 void CreditSender::Tick() {
-  if (asked_ || SteadyTime() - last_sent_us_ >= (bytes_ > 0 ? kBusyPeriodUs : kPeriodUs)) Send();
+  if (asked_ || clock_() - last_sent_us_ >= (bytes_ > 0 ? kBusyPeriodUs : kPeriodUs)) Send();
 }
 
 void CreditSender::Send() {
@@ -47,7 +48,7 @@ void CreditSender::Send() {
   ++message_.seq;
   bytes_ = 0;
   asked_ = false;
-  last_sent_us_ = SteadyTime();
+  last_sent_us_ = clock_();
 }
 
 std::int64_t SteadyTime() {

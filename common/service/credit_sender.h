@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "evit/credit_t.hpp"
 
 namespace evit {
+
+/// A clock that never jumps, us, for time-outs.
+std::int64_t SteadyTime();
 
 /// A consumer's side of lossless replay: says on CREDIT how far it has come. A credit goes out for each 64 kB
 /// consumed (less where the receive buffer is small), within 2 ms of anything consumed, every 50 ms, and at
@@ -22,7 +26,9 @@ class CreditSender {
   static constexpr std::int64_t kBusyPeriodUs = 2'000;
 
   /// `consumer`: service name, what log_replay has as --wait-for. `epoch`: of this run of the consumer.
-  CreditSender(Bus* bus, const Channels& channels, const std::string& consumer, std::int64_t epoch);
+  /// `clock`: us, monotonic; tests have their own.
+  CreditSender(Bus* bus, const Channels& channels, const std::string& consumer, std::int64_t epoch,
+               std::function<std::int64_t()> clock = SteadyTime);
 
   /// Where the consumer is now: the next message it needs of each stream (-1: does not consume it), of the
   /// streams with this epoch (-1: has heard none yet); `bytes` consumed since the last call. Sends when it is
@@ -42,14 +48,12 @@ class CreditSender {
 
   Bus* bus_;
   std::string channel_;
+  std::function<std::int64_t()> clock_;
   credit_t message_;
   std::vector<std::uint8_t> buffer_;
   std::int64_t bytes_ = 0;
-  std::int64_t last_sent_us_ = 0;  // steady clock
+  std::int64_t last_sent_us_ = 0;  // of the clock
   bool asked_ = true;              // the first Tick says "here I am"
 };
-
-/// A clock that never jumps, us, for time-outs.
-std::int64_t SteadyTime();
 
 }  // namespace evit

@@ -121,14 +121,16 @@ void SendWindow::SentAgain() {
   ++cursor_;
 }
 
-bool SendWindow::CheckTimeout(std::int64_t now_us) {
-  if (items_.empty() || under_way_ == 0 || now_us - moved_us_ < patience_us_) return false;
+bool SendWindow::Stalled(std::int64_t now_us) const {
+  return !items_.empty() && under_way_ != 0 && now_us - moved_us_ >= patience_us_;
+}
+
+void SendWindow::GoBack(std::int64_t now_us) {
   cursor_ = 0;
   under_way_ = 0;
   probing_ = true;
   moved_us_ = now_us;
   patience_us_ = std::min(2 * patience_us_, std::max(kLongestPatienceUs, timeout_us_));
-  return true;
 }
 
 }  // namespace evit

@@ -56,9 +56,10 @@ class SendWindow {
   const Item* NextAgain() const;
   void SentAgain();
 
-  /// Call often: goes back when nothing moved for the time-out, which doubles up to a second until something
-  /// moves. True when it went back.
-  bool CheckTimeout(std::int64_t now_us);
+  /// Nothing has moved for the time-out: call often, and then GoBack.
+  bool Stalled(std::int64_t now_us) const;
+  /// Everything under way counts as lost, and the time-out doubles, up to a second, until something moves.
+  void GoBack(std::int64_t now_us);
 
   bool all_acknowledged() const { return items_.empty(); }
   /// Source of the first message not acknowledged by all; `otherwise` where there is none.

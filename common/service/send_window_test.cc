@@ -87,9 +87,10 @@ TEST_F(SendWindowTest, ImpossibleStaleAndOvertakenCreditsChangeNothing) {
 
 TEST_F(SendWindowTest, GoesBackAfterTheTimeoutWithOneMessageAsProbe) {
   SendEvents(3, 100, 1000);
-  EXPECT_FALSE(window_.CheckTimeout(1199));
+  EXPECT_FALSE(window_.Stalled(1199));
   EXPECT_EQ(window_.NextAgain(), nullptr);
-  EXPECT_TRUE(window_.CheckTimeout(1200));
+  EXPECT_TRUE(window_.Stalled(1200));
+  window_.GoBack(1200);
   ASSERT_NE(window_.NextAgain(), nullptr);
   EXPECT_EQ(window_.NextAgain()->seq, 0);
   EXPECT_TRUE(window_.MaySend(100));
@@ -107,7 +108,8 @@ TEST_F(SendWindowTest, GoesBackAfterTheTimeoutWithOneMessageAsProbe) {
 
 TEST_F(SendWindowTest, AConsumerThatWasOnlySlowNeedsNothingAgain) {
   SendEvents(3, 100);
-  ASSERT_TRUE(window_.CheckTimeout(200));
+  ASSERT_TRUE(window_.Stalled(200));
+  window_.GoBack(200);
   window_.OnCredit(Credit("a", 3, 0), 210);
   window_.OnCredit(Credit("b", 3, 0), 210);
   EXPECT_EQ(window_.NextAgain(), nullptr);
@@ -122,14 +124,15 @@ TEST_F(SendWindowTest, PatienceDoublesUpToASecondUntilSomethingMoves) {
   window.Sent({SendWindow::kEvents, 1, 100, 1}, 0);
   std::int64_t now = 0;
   for (const std::int64_t patience : {200'000, 400'000, 800'000, 1'000'000, 1'000'000}) {
-    EXPECT_FALSE(window.CheckTimeout(now + patience - 1));
+    EXPECT_FALSE(window.Stalled(now + patience - 1));
     now += patience;
-    EXPECT_TRUE(window.CheckTimeout(now));
+    EXPECT_TRUE(window.Stalled(now));
+    window.GoBack(now);
     window.SentAgain();
   }
   window.OnCredit(Credit("a", 1, 0), now);
   window.SentAgain();
-  EXPECT_TRUE(window.CheckTimeout(now + 200'000));
+  EXPECT_TRUE(window.Stalled(now + 200'000));
 }
 
 TEST_F(SendWindowTest, ARestartedConsumerIsNoticed) {
@@ -158,7 +161,7 @@ TEST_F(SendWindowTest, EverythingArrivesWhateverIsLost) {
     while (next_expected < n || !window.all_acknowledged()) {
       now += 10;
       ASSERT_LT(now, 10'000'000) << "stuck with every " << every << "th lost";
-      window.CheckTimeout(now);
+      if (window.Stalled(now)) window.GoBack(now);
       for (const auto* again = window.NextAgain(); again != nullptr && window.MaySend(100);
            again = window.NextAgain()) {
         transmit(again->seq);

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <stdexcept>
-#include <thread>
 
 #include "common/bus/memory_bus.h"
 #include "common/service/credit_sender.h"
@@ -29,13 +29,15 @@ class ServiceTest : public ::testing::Test {
 };
 
 TEST_F(ServiceTest, StatusGoesOutOnChangeAndOnceASecond) {
-  StatusReporter reporter(bus_.get(), channels_, "map_server", 9);
+  std::chrono::steady_clock::time_point now(std::chrono::seconds(100));
+  StatusReporter reporter(bus_.get(), channels_, "map_server", 9, [&now] { return now; });
   reporter.Counter("EVENTS.lost") += 3;
   reporter.AddTiming("render", 1.0);
   reporter.AddTiming("render", 2.0);
   reporter.SetProgress(7);
   reporter.SetState("running", "x");
   reporter.SetState("running", "y");  // no change of state: waits for its second
+  now += std::chrono::milliseconds(999);
   reporter.Tick();
   bus_->Poll(0);
   ASSERT_EQ(status_.size(), 1U);
@@ -46,7 +48,7 @@ TEST_F(ServiceTest, StatusGoesOutOnChangeAndOnceASecond) {
   EXPECT_EQ(status_[0].counter_name[0], "EVENTS.lost");
   EXPECT_EQ(status_[0].counter_value[0], 3);
   EXPECT_EQ(status_[0].timing_ms, std::vector<double>{1.5});
-  std::this_thread::sleep_for(std::chrono::milliseconds(1010));
+  now += std::chrono::milliseconds(1);
   reporter.Tick();
   reporter.Tick();
   reporter.SetState("finished", "");
@@ -77,7 +79,8 @@ TEST_F(ServiceTest, SequenceCounterTellsGapsDuplicatesAndRestarts) {
 }
 
 TEST_F(ServiceTest, CreditGoesOutAtOnceForEachWindowfulAndOnRequest) {
-  CreditSender sender(bus_.get(), channels_, "frame_builder", 4);
+  std::int64_t now_us = 0;
+  CreditSender sender(bus_.get(), channels_, "frame_builder", 4, [&now_us] { return now_us; });
   sender.Tick();  // here I am
   sender.Tick();
   sender.Consumed(7, 1, 0, 30'000);  // a new stream
@@ -86,7 +89,9 @@ TEST_F(ServiceTest, CreditGoesOutAtOnceForEachWindowfulAndOnRequest) {
   sender.Consumed(7, 3, 0, 40'000);  // 64 kB
   sender.Ask();
   sender.Tick();
-  std::this_thread::sleep_for(std::chrono::milliseconds(55));
+  now_us += CreditSender::kPeriodUs - 1;
+  sender.Tick();
+  now_us += 1;
   sender.Tick();
   bus_->Poll(0);
   ASSERT_EQ(credit_.size(), 5U);

@@ -17,8 +17,9 @@ constexpr std::chrono::seconds kPeriod(1);
 
 }  // namespace
 
-StatusReporter::StatusReporter(Bus* bus, const Channels& channels, std::string service, std::int64_t epoch)
-    : bus_(bus), channel_(channels.status), message_() {
+StatusReporter::StatusReporter(Bus* bus, const Channels& channels, std::string service, std::int64_t epoch,
+                               Clock clock)
+    : bus_(bus), channel_(channels.status), clock_(std::move(clock)), message_() {
   message_.service = std::move(service);
   message_.state = "starting";
   message_.epoch = epoch;
@@ -43,14 +44,14 @@ void StatusReporter::Echo() {
                message_.detail.c_str());
 }
 
-void StatusReporter::LookForLosses() {
-  if (std::chrono::steady_clock::now() - looked_ < kPeriod) return;
-  looked_ = std::chrono::steady_clock::now();
-  const bool before = !losing_.empty();
-  losing_ = losses_.Look(counters_);
-  if (!echo_ || before == !losing_.empty()) return;
+void StatusReporter::UpdateLosses() {
+  if (clock_() - losses_updated_ < kPeriod) return;
+  losses_updated_ = clock_();
+  const bool before = !losses_.text().empty();
+  losses_.Update(counters_);
+  if (!echo_ || before == !losses_.text().empty()) return;
   std::fprintf(stderr, "%s: %s\n", message_.service.c_str(),
-               before ? "nothing gets lost any more" : losing_.c_str());
+               before ? "nothing gets lost any more" : losses_.text().c_str());
 }
 
 void StatusReporter::SetProgress(double share) {
@@ -66,7 +67,7 @@ void StatusReporter::AddTiming(const std::string& stage, double milliseconds) {
 }
 
 void StatusReporter::Tick() {
-  if (std::chrono::steady_clock::now() - last_sent_ >= kPeriod) Publish();
+  if (clock_() - last_sent_ >= kPeriod) Publish();
 }
 
 void StatusReporter::Publish() {
@@ -88,11 +89,11 @@ void StatusReporter::Publish() {
     message_.timing_ms.push_back(timing.sum_ms / static_cast<double>(timing.calls));
   }
   message_.n_timings = static_cast<std::int32_t>(message_.timing_name.size());
-  LookForLosses();
+  UpdateLosses();
   const std::string state = message_.state, detail = message_.detail;
-  if (!losing_.empty() && state == "running") {
+  if (!losses_.text().empty() && state == "running") {
     message_.state = "degraded";
-    message_.detail += "; " + losing_;
+    message_.detail += "; " + losses_.text();
   }
   std::vector<std::uint8_t> buffer;
   EncodeTo(message_, &buffer);
@@ -100,7 +101,7 @@ void StatusReporter::Publish() {
   message_.detail = detail;
   bus_->Publish(channel_, buffer.data(), buffer.size());
   ++message_.seq;
-  last_sent_ = std::chrono::steady_clock::now();
+  last_sent_ = clock_();
 }
 
 std::int64_t NewEpoch() {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -16,8 +17,11 @@ namespace evit {
 /// changes. While messages get lost, "running" is sent as "degraded", and the detail says what is lost.
 class StatusReporter {
  public:
-  /// `bus` must outlive this.
-  StatusReporter(Bus* bus, const Channels& channels, std::string service, std::int64_t epoch);
+  using Clock = std::function<std::chrono::steady_clock::time_point()>;
+
+  /// `bus` must outlive this. `clock`: tests have their own.
+  StatusReporter(Bus* bus, const Channels& channels, std::string service, std::int64_t epoch,
+                 Clock clock = std::chrono::steady_clock::now);
 
   /// `state`: one word, see service_status_t. `detail`: for a person.
   void SetState(const std::string& state, const std::string& detail);
@@ -37,7 +41,7 @@ class StatusReporter {
 
  private:
   void Echo();
-  void LookForLosses();
+  void UpdateLosses();
 
   static inline bool echo_ = false;
   struct Timing {
@@ -46,13 +50,13 @@ class StatusReporter {
   };
   Bus* bus_;
   std::string channel_;
+  Clock clock_;
   service_status_t message_;
   std::map<std::string, std::int64_t> counters_;
   std::map<std::string, Timing> timings_;
   std::chrono::steady_clock::time_point last_sent_;
   LossWatch losses_;
-  std::string losing_;  // what of it is to be said
-  std::chrono::steady_clock::time_point looked_;
+  std::chrono::steady_clock::time_point losses_updated_;
   std::string echoed_;
 };
 

@@ -42,7 +42,7 @@ class Program {
   }
   /// Exit code; -1 where it does not end within 10 s, -2 where a signal ended it.
   int Wait() {
-    const auto end = Clock::now() + std::chrono::seconds(10);
+    const auto end = Clock::now() + std::chrono::seconds(60);
     for (int status = 0; Clock::now() < end; std::this_thread::sleep_for(std::chrono::milliseconds(5))) {
       if (::waitpid(pid_, &status, WNOHANG) != pid_) continue;
       pid_ = -1;

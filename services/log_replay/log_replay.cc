@@ -33,12 +33,11 @@ std::int64_t WindowSize(std::int64_t granted_receive_buffer) {
 
 LogReplay::LogReplay(const LogReplayOptions& options, Bus* bus, const Channels& channels)
     : options_(options),
-      bus_(bus),
-      channels_(channels),
       recording_(options.log, options.log_prefix, options.allow_truncated),
       status_(bus, channels, kName, NewEpoch()),
       control_counter_(&status_, "REPLAY_CONTROL"),
       sender_(bus, channels, &recording_, &status_),
+      announcer_(bus, channels, &sender_),
       window_(options.wait_for, WindowSize(bus->granted_receive_buffer()), options.resend_us),
       pacer_(options.speed.value_or(options.lossless ? 0.0 : 1.0)),
       paused_(options.start_paused) {
@@ -59,10 +58,10 @@ LogReplay::LogReplay(const LogReplayOptions& options, Bus* bus, const Channels& 
         "nothing to replay: log " + options.log + " lasts from " + std::to_string(recording_.begin_utime()) +
         " to " + std::to_string(recording_.end_utime()) + " us, and the part asked for is not in it");
   }
-  bus->Subscribe(channels_.replay_control, [this](const std::string&, const std::uint8_t* data,
-                                                  std::size_t size) { OnControl(data, size); });
+  bus->Subscribe(channels.replay_control, [this](const std::string&, const std::uint8_t* data,
+                                                 std::size_t size) { OnControl(data, size); });
   if (options.lossless) {
-    bus->Subscribe(channels_.credit, [this](const std::string&, const std::uint8_t* data, std::size_t size) {
+    bus->Subscribe(channels.credit, [this](const std::string&, const std::uint8_t* data, std::size_t size) {
       OnCredit(data, size);
     });
   }
@@ -108,9 +107,8 @@ void LogReplay::StartStream(std::size_t position) {
   const std::int64_t epoch = NewEpoch();
   sender_.Restart(epoch);
   window_.Restart(epoch);
+  announcer_.Restart();
   next_ = position;
-  end_seq_ = 0;
-  delivered_us_ = 0;
   if (phase_ == Phase::kEnded) phase_ = Phase::kSending;
   pacer_.Start(SteadyTime(), DataTime());
   StorePosition();
@@ -183,20 +181,23 @@ void LogReplay::Tick() {
     Report(now_us);
   }
   if (phase_ != Phase::kWaiting && !paused_) Send(now_us);
-  if (phase_ == Phase::kEnded) AnnounceEnd(SteadyTime());
+  if (phase_ == Phase::kEnded)
+    announcer_.Tick(SteadyTime(), everything_delivered(), recording_.utime(end_ - 1));
   if (now_us - reported_us_ >= kReportPeriodUs) Report(now_us);
   status_.Tick();
 }
 
 void LogReplay::Send(std::int64_t now_us) {
-  if (options_.lossless && window_.CheckTimeout(now_us)) ++status_.Counter("resend.rounds");
+  if (options_.lossless && window_.Stalled(now_us)) {
+    window_.GoBack(now_us);
+    ++status_.Counter("resend.rounds");
+  }
   for (int i = 0; i < kBurst; ++i) {
     if (!SendOneAgain() && !SendOneNew(now_us)) break;
     now_us = SteadyTime();
   }
   if (phase_ == Phase::kSending && next_ == end_) {
     phase_ = Phase::kEnded;
-    end_sent_us_ = 0;
     StorePosition();
     Report(now_us);
   }

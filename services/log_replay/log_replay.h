@@ -14,6 +14,7 @@
 #include "common/service/send_window.h"
 #include "common/service/sequence_counter.h"
 #include "common/service/status_reporter.h"
+#include "services/log_replay/end_announcer.h"
 #include "services/log_replay/pacer.h"
 #include "services/log_replay/position.h"
 #include "services/log_replay/recording.h"
@@ -64,18 +65,16 @@ class LogReplay : public Service {
   void Send(std::int64_t now_us);
   bool SendOneAgain();
   bool SendOneNew(std::int64_t now_us);
-  void AnnounceEnd(std::int64_t now_us);
   void Report(std::int64_t now_us);
   std::int64_t DataTime() const;
   bool everything_delivered() const { return !options_.lossless || window_.all_acknowledged(); }
 
   LogReplayOptions options_;
-  Bus* bus_;
-  Channels channels_;
   Recording recording_;
   StatusReporter status_;
   SequenceCounter control_counter_;
   StreamSender sender_;
+  EndAnnouncer announcer_;
   SendWindow window_;
   Pacer pacer_;
   std::optional<MappedRecord<ReplayPosition>> position_;
@@ -83,10 +82,7 @@ class LogReplay : public Service {
   std::size_t next_ = 0;             // next new message
   Phase phase_ = Phase::kWaiting;
   bool paused_ = false;
-  std::int64_t reported_us_ = 0;   // steady clock
-  std::int64_t end_sent_us_ = 0;   // steady clock: STREAM_END
-  std::int64_t delivered_us_ = 0;  // steady clock: when everything was with its consumers; 0: not yet
-  std::int64_t end_seq_ = 0;
+  std::int64_t reported_us_ = 0;  // steady clock
 };
 
 }  // namespace evit

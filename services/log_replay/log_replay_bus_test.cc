@@ -9,6 +9,7 @@
 #include "common/service/child_process.h"
 #include "common/service/credit_sender.h"
 #include "common/service/sequence_counter.h"
+#include "common/time/milliseconds.h"
 #include "tests/helpers/bus_messages.h"
 #include "tests/helpers/paths.h"
 #include "tests/helpers/replay_recording.h"
@@ -18,6 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 const std::string kProgram = test::ProgramPath("log_replay");
+constexpr std::chrono::seconds kPatience(60);  // nothing takes so long unless it fails
 constexpr char kUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 
 /// A consumer as lossless replay expects it: takes exactly the next message of each stream, drops all else.
@@ -35,7 +37,7 @@ class Consumer {
 
   /// Polls until `holds` or the time is over.
   template <typename Condition>
-  bool PollUntil(const Condition& holds, std::chrono::milliseconds longest = std::chrono::seconds(20)) {
+  bool PollUntil(const Condition& holds, std::chrono::milliseconds longest = kPatience) {
     const auto end = Clock::now() + longest;
     while (!holds()) {
       if (Clock::now() > end) return false;
@@ -144,7 +146,7 @@ TEST_F(LogReplayBusTest, LosesNothingHoweverSlowTheConsumer) {
   ASSERT_TRUE(consumer.PollUntil([&] { return consumer.complete(); }));
   ExpectEverythingOnceInOrder(consumer, recording.packets);
   consumer.PollUntil([&] { return consumer.HasState("finished"); });
-  EXPECT_EQ(replay->Wait(std::chrono::seconds(5)), 0);
+  EXPECT_EQ(replay->Wait(kPatience), 0);
   EXPECT_EQ(replay->Stderr().find("error"), std::string::npos) << replay->Stderr();
 }
 
@@ -175,23 +177,23 @@ TEST_F(LogReplayBusTest, WaitsForAConsumerThatComesLate) {
 }
 
 TEST_F(LogReplayBusTest, KeepsTimeInRealTime) {
-  WriteTestRecording(log_, {});
+  TestRecording recording;
+  recording.packets = 300;
+  WriteTestRecording(log_, recording);
   Consumer consumer;
   consumer.send_credit = false;
   const auto replay = Start({});
-  ASSERT_TRUE(consumer.PollUntil([&] { return consumer.events.size() == 100; }));
+  ASSERT_TRUE(consumer.PollUntil([&] { return consumer.events.size() == 300; }));
   std::vector<double> late_ms;
-  for (std::size_t i = 0; i < 100; ++i) {
-    const std::chrono::duration<double, std::milli> wall = consumer.arrivals[i] - consumer.arrivals[0];
-    late_ms.push_back(wall.count() - 10.0 * static_cast<double>(i));
+  for (std::size_t i = 0; i < 300; ++i) {
+    late_ms.push_back(Milliseconds(consumer.arrivals[i] - consumer.arrivals[0]) -
+                      10.0 * static_cast<double>(i));
   }
-  std::sort(late_ms.begin(), late_ms.end());
-  RecordProperty("median_late_us", static_cast<int>(1000 * late_ms[50]));
-  std::printf("arrival against data time, ms: median %.3f, range %.3f .. %.3f\n", late_ms[50], late_ms[0],
-              late_ms[99]);
-  EXPECT_LT(std::abs(late_ms[50]), 20.0);  // a busy machine; alone it is well below 1 ms
-  EXPECT_GT(late_ms[0], -200.0);
-  EXPECT_LT(late_ms[99], 200.0);
+  // However busy the host, one in a hundred comes in time; a pace wrong by a tenth would show as 200 ms.
+  const double early = *std::min_element(late_ms.begin(), late_ms.begin() + 100);
+  const double late = *std::min_element(late_ms.end() - 100, late_ms.end());
+  std::printf("arrival against data time, ms: %.3f at first, %.3f at last\n", early, late);
+  EXPECT_NEAR(late, early, 150.0);
   // STREAM_END continues.
   EXPECT_TRUE(consumer.PollUntil([&] { return consumer.ends.size() >= 3; }));
 }
@@ -223,7 +225,7 @@ TEST_F(LogReplayBusTest, ObeysPauseAndSeekAndIgnoresForgeries) {
   EXPECT_NE(consumer.events[some].epoch, consumer.events[some - 1].epoch);
   replay->Signal(SIGTERM);
   ASSERT_TRUE(consumer.PollUntil([&] { return consumer.HasState("finished"); }));
-  EXPECT_EQ(replay->Wait(std::chrono::seconds(2)), 0);
+  EXPECT_EQ(replay->Wait(kPatience), 0);
   EXPECT_EQ(replay->Stderr().find("error"), std::string::npos) << replay->Stderr();
   const service_status_t& last = consumer.statuses.back();
   const auto invalid =
@@ -235,7 +237,7 @@ TEST_F(LogReplayBusTest, ObeysPauseAndSeekAndIgnoresForgeries) {
 TEST_F(LogReplayBusTest, BadInputEndsItWithAClearMessage) {
   const auto expect = [this](const std::vector<std::string>& arguments, const std::string& words) {
     const auto replay = Start(arguments);
-    const int code = replay->Wait(std::chrono::seconds(5));
+    const int code = replay->Wait(kPatience);
     EXPECT_GT(code, 0) << words;
     EXPECT_NE(replay->Stderr().find(words), std::string::npos) << replay->Stderr();
   };

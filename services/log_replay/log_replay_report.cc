@@ -1,7 +1,6 @@
-// What log_replay says of itself: STREAM_END and its state.
+// What log_replay says of itself.
 #include <cstdio>
 
-#include "common/bus/codec.h"
 #include "common/service/credit_sender.h"
 #include "services/log_replay/log_replay.h"
 
@@ -9,10 +8,6 @@ namespace evit {
 
 namespace {
 
-constexpr std::int64_t kSettleUs =
-    500'000;  // STREAM_END comes every 100 ms at first, so that one may get lost
-constexpr std::int64_t kEndPeriodUs = 1'000'000;
-constexpr std::int64_t kEndPeriodSettlingUs = 100'000;
 constexpr std::int64_t kSilenceUs = 3'000'000;  // consumers send credit every 50 ms
 
 std::string Join(const std::vector<std::string>& names) {
@@ -23,28 +18,8 @@ std::string Join(const std::vector<std::string>& names) {
 
 }  // namespace
 
-void LogReplay::AnnounceEnd(std::int64_t now_us) {
-  if (delivered_us_ == 0 && everything_delivered()) {
-    delivered_us_ = now_us;
-    end_sent_us_ = 0;
-  }
-  const bool settling = delivered_us_ == 0 || now_us - delivered_us_ < kSettleUs;
-  if (end_sent_us_ != 0 && now_us - end_sent_us_ < (settling ? kEndPeriodSettlingUs : kEndPeriodUs)) return;
-  stream_end_t message{};
-  message.utime = sender_.last_utime(recording_.utime(end_ - 1));
-  message.seq = end_seq_++;
-  message.epoch = sender_.epoch();
-  message.n_events_messages = sender_.sent(Recording::kEvents);
-  message.n_imu_messages = sender_.sent(Recording::kImu);
-  std::vector<std::uint8_t> bytes;
-  EncodeTo(message, &bytes);
-  bus_->Publish(channels_.stream_end, bytes.data(), bytes.size());
-  end_sent_us_ = now_us;
-}
-
 bool LogReplay::done() const {
-  return options_.exit_at_end && phase_ == Phase::kEnded && delivered_us_ != 0 &&
-         SteadyTime() - delivered_us_ >= kSettleUs;
+  return options_.exit_at_end && phase_ == Phase::kEnded && announcer_.Settled(SteadyTime());
 }
 
 void LogReplay::Report(std::int64_t now_us) {

@@ -63,7 +63,7 @@ bool StreamSender::SendNew(std::size_t i) {
   const Recording::Kind kind = recording_->kind(i);
   recording_->Read(i, &bytes_);
   Span span;
-  if (!Check(kind, &span)) {
+  if (!Decode(kind, &span)) {
     ++*invalid_[kind];
     return false;
   }
@@ -83,7 +83,7 @@ void StreamSender::SendAgain(std::size_t i, std::int64_t seq) {
   Publish(recording_->kind(i), seq);
 }
 
-bool StreamSender::Check(Recording::Kind kind, Span* span) {
+bool StreamSender::Decode(Recording::Kind kind, Span* span) {
   switch (kind) {
     case Recording::kEvents:
       if (!DecodeChecked(bytes_.data(), bytes_.size(), &events_)) return false;

@@ -44,7 +44,7 @@ class StreamSender {
   struct Span {
     std::int64_t begin = 0, end = 0;  // us, sensor clock, of the first and the last item
   };
-  bool Check(Recording::Kind kind, Span* span);
+  bool Decode(Recording::Kind kind, Span* span);
   void Publish(Recording::Kind kind, std::int64_t seq);
 
   Bus* bus_;

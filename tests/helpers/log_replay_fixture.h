@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "common/bus/memory_bus.h"
@@ -55,6 +57,15 @@ class LogReplayTest : public ::testing::Test {
     replay_bus_->Poll(0);
     replay_->Tick();
     bus_->Poll(0);
+  }
+  /// Steps at log_replay's own pace until `holds`, but for no more than a minute.
+  template <typename Condition>
+  void StepUntil(const Condition& holds) {
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!holds() && std::chrono::steady_clock::now() < give_up) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(replay_->poll_timeout_ms()));
+      Step();
+    }
   }
   void Start(const TestRecording& recording = {}) {
     WriteTestRecording(path_, recording);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/bus/codec.h"
+#include "common/time/milliseconds.h"
 
 namespace evit::run {
 namespace {
@@ -46,7 +47,7 @@ double LatencyProbe::Arrivals::MsSince(Utime t) const {
   const auto found = std::lower_bound(arrivals_.begin(), arrivals_.end(), t,
                                       [](const Arrival& a, Utime time) { return a.up_to < time; });
   if (found == arrivals_.end() || (found == arrivals_.begin() && t < found->up_to)) return -1;
-  return std::chrono::duration<double, std::milli>(Clock::now() - found->at).count();
+  return Milliseconds(Clock::now() - found->at);
 }
 
 void LatencyProbe::Keep(double ms, std::vector<double>* into) {

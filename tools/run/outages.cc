@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/bus/codec.h"
+#include "common/time/milliseconds.h"
 
 namespace evit::run {
 namespace {
@@ -57,7 +58,7 @@ double Outages::MsAfter(Clock::time_point since, Clock::time_point until) const 
     }
     before = here;
   }
-  return std::chrono::duration<double, std::milli>(back - since).count();
+  return Milliseconds(back - since);
 }
 
 }  // namespace evit::run
