@@ -1,0 +1,88 @@
+// Recordings of other people's formats, as far as our own parsers read them (HDF5, SQLite and ROS 1 bags are
+// libraries'). The first byte chooses.
+#include <functional>
+#include <stdexcept>
+
+#include "tests/fuzz/temporary_file.h"
+#include "tools/formats/aedat/aedat4_recording.h"
+#include "tools/formats/aedat/aedat_recording.h"
+#include "tools/formats/prophesee/raw_recording.h"
+#include "tools/formats/ros/message_types.h"
+#include "tools/formats/ros/ros_recording.h"
+#include "tools/formats/ros2/mcap_bag.h"
+#include "tools/formats/tables/stream_tables.h"
+
+namespace {
+
+using namespace evit::formats;
+
+void ReadAll(Recording* recording) {
+  recording->info();
+  recording->Streams();
+  const auto events = recording->Events(640, 480);
+  evit::EventArray piece;
+  while (events->Read(&piece)) {
+  }
+}
+
+void ReadMessages(const std::uint8_t* data, std::size_t size, bool cdr) {
+  const std::function<void()> readers[] = {[&] {
+                                             evit::EventArray events;
+                                             GetEventArray(RosCursor(data, size, cdr), &events);
+                                           },
+                                           [&] {
+                                             evit::EventArray events;
+                                             EventPacketDecoder().Decode(
+                                                 GetEventPacket(RosCursor(data, size, cdr)), &events);
+                                           },
+                                           [&] { GetImu(RosCursor(data, size, cdr)); },
+                                           [&] { GetPose(kPoseTypes[2], RosCursor(data, size, cdr)); }};
+  for (const auto& read : readers) {
+    try {
+      read();
+    } catch (const std::runtime_error&) {
+    }
+  }
+}
+
+void Read(int which, const std::uint8_t* data, std::size_t size) {
+  const evit::fuzz::TemporaryFile file(data, size);
+  DropCounts dropped;
+  switch (which) {
+    case 0: {
+      RawRecording recording(file.path());
+      return ReadAll(&recording);
+    }
+    case 1: {
+      Aedat4Recording recording(file.path());
+      return ReadAll(&recording);
+    }
+    case 2: {
+      AedatRecording recording(file.path());
+      return ReadAll(&recording);
+    }
+    case 3: {
+      RosRecording recording(std::make_unique<McapBag>(file.path()), {});
+      return ReadAll(&recording);
+    }
+    case 4:
+    case 5:
+      return ReadMessages(data, size, which == 4);
+    case 6:
+      ReadImuTable(file.path(), &dropped);
+      return;
+    default:
+      ReadPoseTable(file.path(), &dropped);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  try {
+    Read(data[0] % 8, data + 1, size - 1);
+  } catch (const std::runtime_error&) {
+  }
+  return 0;
+}
