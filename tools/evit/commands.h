@@ -9,6 +9,8 @@ class App;
 namespace evit::commands {
 
 void AddImportCommand(CLI::App* app);
+void AddExportCommand(CLI::App* app);
+void AddFeedCommand(CLI::App* app);
 void AddMapCommand(CLI::App* app);
 /// photometric, a subcommand of map.
 void AddMapPhotometric(CLI::App* map);

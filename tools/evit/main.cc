@@ -26,6 +26,8 @@ int Main(int argc, char** argv) {
       "A first run: evit simulate, evit import vector, evit run; see README.md."};
   app.require_subcommand(1);
   evit::commands::AddImportCommand(&app);
+  evit::commands::AddExportCommand(&app);
+  evit::commands::AddFeedCommand(&app);
   evit::commands::AddMapCommand(&app);
   evit::commands::AddSimulateCommand(&app);
   evit::commands::AddRunCommand(&app);

@@ -1,0 +1,88 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <stdexcept>
+
+#include "common/evaluation/trajectory.h"
+#include "tools/evit/commands.h"
+#include "tools/evit/options.h"
+#include "tools/formats/export/export_log.h"
+#include "tools/formats/export/export_results.h"
+#include "tools/terminal/progress_bar.h"
+
+namespace evit::commands {
+namespace {
+
+void AddExportLog(CLI::App* app, const char* name, const char* text, formats::ExportFormat format) {
+  struct Options {
+    formats::LogExport job;
+    std::string size;
+  };
+  auto o = std::make_shared<Options>();
+  o->job.format = format;
+  CLI::App* command = app->add_subcommand(name, text);
+  command->add_option("LOG", o->job.log, "Log of evit import")->required();
+  command
+      ->add_option("--out", o->job.out,
+                   format == formats::ExportFormat::kRpg ? "Folder to write to"
+                                                         : "File of the events; IMU and truth beside it")
+      ->required();
+  if (format == formats::ExportFormat::kEvt3)
+    command->add_option("--size", o->size,
+                        "WxH of the sensor, for the header (default: what holds all events)");
+  command->callback([o] {
+    if (!o->size.empty()) ParseSize(o->size, &o->job.width, &o->job.height);
+    formats::ExportSummary s;
+    {
+      terminal::ProgressBar bar("exporting " + o->job.log);
+      s = formats::ExportLog(o->job, [&](double share) { bar.Show(share); });
+    }
+    std::printf("%s: %lld events, %lld IMU samples, %lld truth poses\n", o->job.out.c_str(),
+                static_cast<long long>(s.n_events), static_cast<long long>(s.n_imu),
+                static_cast<long long>(s.n_truth));
+  });
+}
+
+void AddExportResults(CLI::App* app) {
+  struct Options {
+    std::string from, format, out;
+  };
+  auto o = std::make_shared<Options>();
+  static const std::map<std::string, formats::TrajectoryFormat> kFormats = {
+      {"tum", formats::TrajectoryFormat::kTum},
+      {"kitti", formats::TrajectoryFormat::kKitti},
+      {"euroc", formats::TrajectoryFormat::kEuroc},
+      {"mcap", formats::TrajectoryFormat::kMcap}};
+  CLI::App* command = app->add_subcommand("results", "A trajectory as TUM, KITTI, EuRoC csv or MCAP");
+  command->add_option("FROM", o->from, "Result folder of evit run (its trajectory.tum), or a TUM file")
+      ->required();
+  command
+      ->add_option("--format", o->format,
+                   "tum, kitti (no stamps), euroc, or mcap (ROS 2 PoseStamped on /evit/pose)")
+      ->required()
+      ->check(CLI::IsMember({"tum", "kitti", "euroc", "mcap"}));
+  command->add_option("--out", o->out, "File to write")->required();
+  command->footer("Example: evit export results desk_result --format euroc --out desk.csv");
+  command->callback([o] {
+    const bool folder = std::filesystem::is_directory(o->from);
+    const Trajectory trajectory = ReadTum(folder ? o->from + "/trajectory.tum" : o->from);
+    formats::WriteTrajectory(o->out, kFormats.at(o->format), trajectory);
+    std::printf("%s: %zu poses\n", o->out.c_str(), trajectory.size());
+  });
+}
+
+}  // namespace
+
+void AddExportCommand(CLI::App* app) {
+  CLI::App* command =
+      app->add_subcommand("export", "Logs and results for other people's tools")->require_subcommand(1);
+  AddExportLog(command, "rpg", "RPG's folder of text files", formats::ExportFormat::kRpg);
+  AddExportLog(command, "dsec", "DSEC's HDF5 (Zstandard)", formats::ExportFormat::kDsec);
+  AddExportLog(command, "evt3", "Metavision RAW, EVT 3.0 (stamps from the first event on)",
+               formats::ExportFormat::kEvt3);
+  AddExportResults(command);
+}
+
+}  // namespace evit::commands

@@ -1,0 +1,150 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "common/bus/lcm_bus.h"
+#include "common/bus/log_file.h"
+#include "common/service/runner.h"
+#include "common/service/stop_signals.h"
+#include "tools/evit/commands.h"
+#include "tools/evit/options.h"
+#include "tools/feed/fake_camera.h"
+#include "tools/feed/feed_loop.h"
+
+namespace evit::commands {
+namespace {
+
+struct FeedCommand {
+  int tcp = 0, udp = 0;
+  std::string from, out, lcm_url, prefix, size;
+  bool realtime = false, to_stdout = false;
+  double imu_offset = 0;
+  feed::FeedOptions options;
+};
+
+std::unique_ptr<feed::FeedInput> OpenInput(const FeedCommand& o) {
+  if ((o.tcp > 0) + (o.udp > 0) + !o.from.empty() > 1)
+    throw std::runtime_error("--tcp, --udp and --from exclude each other");
+  if (o.tcp > 0) return feed::ListenTcp(o.tcp);
+  if (o.udp > 0) return feed::ListenUdp(o.udp);
+  if (!o.from.empty()) return feed::OpenFakeCamera(o.from, o.realtime);
+  return feed::OpenStandardInput();
+}
+
+// The records themselves: a fake driver for another `evit feed`, or a file to keep.
+void CopyRecords(feed::FeedInput* input, const StopSignals& stop) {
+  std::vector<std::uint8_t> block(1 << 18);
+  std::size_t n = 0;
+  while (!stop.received()) {
+    const auto state = input->Read(block.data(), block.size(), 100, &n);
+    if (state == feed::FeedInput::State::kEnd) break;
+    if (std::fwrite(block.data(), 1, n, stdout) != n)
+      throw std::runtime_error("standard output takes no more");
+  }
+  if (std::fflush(stdout) != 0) throw std::runtime_error("standard output takes no more");
+}
+
+void PrintCounts(const feed::FeedCounts& c, double seconds) {
+  std::fprintf(stderr,
+               "%lld events in %lld packets (%.2f million/s), %lld IMU samples; dropped: %lld late, %lld "
+               "outside the sensor, %lld "
+               "not finite; IMU offset %.6f s\n",
+               static_cast<long long>(c.events), static_cast<long long>(c.packets),
+               1e-6 * static_cast<double>(c.events) / seconds, static_cast<long long>(c.imu),
+               static_cast<long long>(c.late), static_cast<long long>(c.outside),
+               static_cast<long long>(c.invalid), 1e-6 * static_cast<double>(c.imu_offset));
+}
+
+void Feed(const FeedCommand& o) {
+  using Clock = std::chrono::steady_clock;
+  const StopSignals stop;
+  const std::unique_ptr<feed::FeedInput> input = OpenInput(o);
+  if (o.to_stdout) return CopyRecords(input.get(), stop);
+  std::unique_ptr<Bus> bus;
+  std::unique_ptr<LogWriter> log;
+  const std::string part = o.out + ".part";
+  if (o.out.empty()) {
+    bus = OpenLcmBus(ResolveLcmUrl(o.lcm_url));
+  } else {
+    log = std::make_unique<LogWriter>(part);
+  }
+  Utime logged =
+      std::numeric_limits<Utime>::min();  // a log's stamps increase; packets come up to 5 ms after the IMU
+  const auto epoch = std::chrono::duration_cast<std::chrono::microseconds>(
+                         std::chrono::system_clock::now().time_since_epoch())
+                         .count();
+  feed::FeedPublisher publisher(
+      o.options, Channels(o.prefix), epoch,
+      [&](Utime t, const std::string& channel, const std::vector<std::uint8_t>& bytes) {
+        if (log) {
+          log->Write(logged = std::max(logged, t), channel, bytes.data(), bytes.size());
+        } else {
+          bus->Publish(channel, bytes.data(), bytes.size());
+        }
+      });
+  const Clock::time_point begin = Clock::now();
+  std::fprintf(stderr, "evit feed: reading %s\n", input->name().c_str());
+  try {
+    feed::RunFeed(
+        input.get(), &publisher, [&] { return stop.received(); },
+        [&](const feed::FeedCounts& c) {
+          std::fprintf(stderr, "\r%lld events, %lld IMU samples", static_cast<long long>(c.events),
+                       static_cast<long long>(c.imu));
+        });
+    if (publisher.counts().events == 0) throw std::runtime_error(input->name() + ": sent no events");
+    if (log) log->Close();
+  } catch (...) {
+    if (log) std::remove(part.c_str());
+    throw;
+  }
+  std::fputc('\n', stderr);
+  PrintCounts(publisher.counts(), std::chrono::duration<double>(Clock::now() - begin).count());
+  if (bus && bus->send_errors() > 0)
+    throw std::runtime_error(std::to_string(bus->send_errors()) +
+                             " messages could not be sent; is the LCM URL's network up?");
+  if (log && std::rename(part.c_str(), o.out.c_str()) != 0)
+    throw std::runtime_error(o.out + ": cannot be written");
+}
+
+}  // namespace
+
+void AddFeedCommand(CLI::App* app) {
+  auto o = std::make_shared<FeedCommand>();
+  CLI::App* feed = app->add_subcommand(
+      "feed", "Publish a live camera and IMU: records from any driver become EVENTS and IMU");
+  feed->add_option("--tcp", o->tcp, "Port of this host that one driver connects to (default: standard input)")
+      ->check(CLI::Range(1, 65535));
+  feed->add_option("--udp", o->udp, "Port of this host that takes datagrams of whole records")
+      ->check(CLI::Range(1, 65535));
+  feed->add_option("--from", o->from, "Log of evit import to play as if it were a camera");
+  feed->add_flag("--realtime", o->realtime,
+                 "With --from: as fast as it was recorded (default: as fast as it is taken)");
+  feed->add_flag("--to-stdout", o->to_stdout,
+                 "Write the records to standard output in place of publishing them");
+  feed->add_option("--out", o->out, "Write a log in place of publishing");
+  feed->add_option("--size", o->size,
+                   "WxH of the sensor; events outside are dropped (default: whatever comes)");
+  feed->add_option("--imu-offset", o->imu_offset,
+                   "Seconds to add to IMU stamps to get the clock of the events");
+  feed->add_flag("--align-clocks", o->options.align_clocks,
+                 "Find that offset in the first second, from when data arrive");
+  feed->add_option("--lcm-url", o->lcm_url, "LCM URL (default: LCM_DEFAULT_URL, else LCM's own default)");
+  feed->add_option("--prefix", o->prefix, "Prefix of the channels");
+  feed->footer(
+      "Records are fixed and little-endian. Event, 16 bytes: u8 1, u8 polarity, u16 x, u16 y, u16 0, i64 t "
+      "(us).\n"
+      "IMU, 64 bytes: u8 2, 7 bytes 0, i64 t (us), 3 x f64 rad/s, 3 x f64 m/s^2. Drivers in Python and C++: "
+      "docs/examples.\n"
+      "Example: driver | evit feed --size 640x480        evit feed --from boxes.lcmlog --realtime");
+  feed->callback([o] {
+    if (!o->size.empty()) ParseSize(o->size, &o->options.width, &o->options.height);
+    o->options.imu_offset = static_cast<Utime>(1e6 * o->imu_offset);
+    Feed(*o);
+  });
+}
+
+}  // namespace evit::commands
