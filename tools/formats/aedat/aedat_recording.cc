@@ -98,7 +98,7 @@ AedatRecording::AedatRecording(const std::string& path) : path_(path) {
     if (end == nullptr) break;  // data that begins with 35
     const std::string line(begin, end);
     file.Use(line.size() + 1);
-    if (version.empty()) version = line.substr(sizeof kMagic - 1, 3);
+    if (version.empty() && line.rfind(kMagic, 0) == 0) version = line.substr(sizeof kMagic - 1, 3);
     if (line.rfind("#Source", 0) == 0 || line.find("AEChip") != std::string::npos ||
         line.find("HardwareInterface") != std::string::npos) {
       chip += line + "\n";

@@ -100,17 +100,18 @@ void H5EventReader::ReadTimes(std::size_t n, std::vector<Utime>* out) {
 }
 
 void H5EventReader::ReadPolarities(std::size_t n, std::vector<std::uint8_t>* out) {
-  out->resize(n);
   if (p_->is_integer() && !p_->is_signed() && p_->bytes() == 1) {
-    p_->Read(at_, n, &shorts_);
-    const bool plain = std::all_of(shorts_.begin(), shorts_.end(), [](std::uint16_t p) { return p <= 1; });
-    if (plain && !minus_seen_) {
-      zero_seen_ = zero_seen_ || std::find(shorts_.begin(), shorts_.end(), 0) != shorts_.end();
-      std::copy(shorts_.begin(), shorts_.end(), out->begin());
+    p_->Read(at_, n, out);
+    std::uint8_t largest = 0, smallest = 1;
+    for (const std::uint8_t p : *out) largest = std::max(largest, p);
+    for (const std::uint8_t p : *out) smallest = std::min(smallest, p);
+    if (largest <= 1 && !minus_seen_) {
+      zero_seen_ = zero_seen_ || smallest == 0;
       return;
     }
   }
   p_->Read(at_, n, &doubles_);
+  out->resize(n);
   for (std::size_t k = 0; k < n; ++k) (*out)[k] = Polarity(*p_, doubles_[k]);
 }
 

@@ -52,8 +52,6 @@ class H5EventReader {
   std::size_t size_ = 0, at_ = 0, piece_ = 0;
   bool zero_seen_ = false, minus_seen_ = false;
   std::vector<double> doubles_;
-  std::vector<std::int64_t> integers_;
-  std::vector<std::uint16_t> shorts_;
 };
 
 }  // namespace evit::formats

@@ -21,6 +21,10 @@ constexpr std::size_t kMaxDatasets = 10'000;
 template <typename Number>
 hid_t MemoryType();
 template <>
+hid_t MemoryType<std::uint8_t>() {
+  return H5T_NATIVE_UINT8;
+}
+template <>
 hid_t MemoryType<std::uint16_t>() {
   return H5T_NATIVE_UINT16;
 }
@@ -92,6 +96,7 @@ void H5Rows::Read(std::size_t begin, std::size_t n, std::vector<Number>* out) co
   out->resize(n * columns());
   if (n > 0) impl_->ReadInto(begin, n, MemoryType<Number>(), out->data());
 }
+template void H5Rows::Read(std::size_t, std::size_t, std::vector<std::uint8_t>*) const;
 template void H5Rows::Read(std::size_t, std::size_t, std::vector<std::uint16_t>*) const;
 template void H5Rows::Read(std::size_t, std::size_t, std::vector<std::int64_t>*) const;
 template void H5Rows::Read(std::size_t, std::size_t, std::vector<double>*) const;

@@ -24,7 +24,7 @@ class H5Rows {
   std::size_t bytes() const;  // of one number
 
   /// Rows [begin, begin + n) as ..., of all columns; throws std::runtime_error naming file and dataset, with
-  /// the remedy where a filter is missing. Number: uint16_t, int64_t, double.
+  /// the remedy where a filter is missing. Number: uint8_t, uint16_t, int64_t, double.
   template <typename Number>
   void Read(std::size_t begin, std::size_t n, std::vector<Number>* out) const;
   template <typename Number>

@@ -98,18 +98,23 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* events, ImportS
   {
     StreamWriter writer(part.path, begin, streams.imu, streams.truth);
     for (; more; more = more && events->Read(&piece)) {
-      for (std::size_t k = 0; k < piece.size(); ++k) {
-        const Utime t = piece.t[k];
-        CheckHole(events->name(), last, t);
-        if (t > end) {
-          more = false;
-          break;
-        }
-        last = t;
-        if (t < begin) continue;
-        writer.AddEvent(t, piece.x[k], piece.y[k], piece.p[k]);
-        ++summary.n_events;
+      const Utime before = last;
+      for (std::size_t k = 0; k < piece.size() && last <= end; ++k) {
+        CheckHole(events->name(), last, piece.t[k]);
+        last = piece.t[k];
       }
+      const auto at = [&](Utime t) {
+        return std::lower_bound(piece.t.begin(), piece.t.end(), t) - piece.t.begin();
+      };
+      const auto from = static_cast<std::size_t>(at(begin));
+      const std::size_t to =
+          end == std::numeric_limits<Utime>::max() ? piece.size() : static_cast<std::size_t>(at(end + 1));
+      if (to < piece.size()) more = false;
+      if (from < to) {
+        writer.AddEvents(piece, from, to);
+        summary.n_events += static_cast<std::int64_t>(to - from);
+      }
+      last = to > 0 ? piece.t[to - 1] : before;
       progress(target.seconds ? static_cast<double>(last - begin) / static_cast<double>(end - begin)
                               : events->share());
     }

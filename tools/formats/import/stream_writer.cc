@@ -75,6 +75,28 @@ void StreamWriter::AddEvent(Utime t, std::uint16_t x, std::uint16_t y, std::uint
   packet_.push_back(t, x, y, polarity);
 }
 
+void StreamWriter::AddEvents(const EventArray& events, std::size_t begin, std::size_t end) {
+  const auto append = [](auto* to, const auto& from, std::size_t first, std::size_t last) {
+    to->insert(to->end(), from.begin() + static_cast<std::ptrdiff_t>(first),
+               from.begin() + static_cast<std::ptrdiff_t>(last));
+  };
+  while (begin < end) {
+    AddEvent(events.t[begin], events.x[begin], events.y[begin], events.p[begin]);
+    ++begin;
+    // All that belong into the same packet at once.
+    const auto from = events.t.begin() + static_cast<std::ptrdiff_t>(begin);
+    const std::size_t most = std::min(end - begin, kPacketEvents - std::min(kPacketEvents, packet_.size()));
+    const auto to =
+        std::lower_bound(from, from + static_cast<std::ptrdiff_t>(most), packet_.t.front() + kPacketSpan);
+    const std::size_t stop = begin + static_cast<std::size_t>(to - from);
+    append(&packet_.t, events.t, begin, stop);
+    append(&packet_.x, events.x, begin, stop);
+    append(&packet_.y, events.y, begin, stop);
+    append(&packet_.p, events.p, begin, stop);
+    begin = stop;
+  }
+}
+
 void StreamWriter::Close(Utime end) {
   FlushPacket();
   while (*known_ + kSilence < end) WriteWatermark(*known_ + kSilence);

@@ -19,6 +19,8 @@ class StreamWriter {
   StreamWriter(const std::string& path, std::int64_t epoch, std::vector<ImuSample> imu, Trajectory truth);
 
   void AddEvent(Utime t, std::uint16_t x, std::uint16_t y, std::uint8_t polarity);
+  /// The same for events [begin, end) of an array, sorted by time.
+  void AddEvents(const EventArray& events, std::size_t begin, std::size_t end);
   /// Writes what is left, up to time `end`. At least one event has been added.
   void Close(Utime end);
 
