@@ -96,11 +96,12 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* events, ImportS
   ImportSummary summary;
   Utime last = first;
   {
+    const std::string name = events->name();
     StreamWriter writer(part.path, begin, streams.imu, streams.truth);
     for (; more; more = more && events->Read(&piece)) {
       const Utime before = last;
       for (std::size_t k = 0; k < piece.size() && last <= end; ++k) {
-        CheckHole(events->name(), last, piece.t[k]);
+        CheckHole(name, last, piece.t[k]);
         last = piece.t[k];
       }
       const auto at = [&](Utime t) {
