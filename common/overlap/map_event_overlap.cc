@@ -76,7 +76,8 @@ MapEventOverlap MeasureOverlap(const Camera& camera, const SE3& T_map_camera, co
   overlap.fired_on_map = CountNear(view.fired, painted, options.radius_px);
 
   const NearestPixel on(options.radius_px);
-  for (const Eigen::Vector2d& side : {Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1)}) {
+  for (const Eigen::Vector2d& side :
+       {Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1)}) {
     std::vector<Eigen::Vector2d> shifted;
     std::int64_t near = 0;
     for (const Eigen::Vector2d& pixel : pixels) {
@@ -94,7 +95,8 @@ MapEventOverlap MeasureOverlap(const Camera& camera, const SE3& T_map_camera, co
   return overlap;
 }
 
-MapEventOverlap MeasureOverlap(const Rig& rig, const std::vector<MapView>& views, const OverlapOptions& options) {
+MapEventOverlap MeasureOverlap(const Rig& rig, const std::vector<MapView>& views,
+                               const OverlapOptions& options) {
   MapEventOverlap sum;
   for (const MapView& view : views)
     sum.Add(MeasureOverlap(rig.camera, view.T_map_body * rig.T_body_camera, view, options));

@@ -8,10 +8,10 @@
 namespace evit {
 
 struct OverlapOptions {
-  double radius_px = 2;    // what counts as "on": distance of a point to a pixel that fired, or back
-  double reach_px = 8;     // up to where distances and offsets are measured
-  double beside_px = 15;   // by which the map is shifted to see what chance alone gives
-  double border_px = 4;    // points nearer to the image's border do not count
+  double radius_px = 2;   // what counts as "on": distance of a point to a pixel that fired, or back
+  double reach_px = 8;    // up to where distances and offsets are measured
+  double beside_px = 15;  // by which the map is shifted to see what chance alone gives
+  double border_px = 4;   // points nearer to the image's border do not count
 };
 
 /// How a map and events lie on each other at known poses. Counts add up over views.
@@ -38,7 +38,8 @@ struct MapEventOverlap {
   double event_share() const { return Share(fired_on_map, fired); }
   double point_share_by_chance() const { return Share(points_on_events_beside, points_beside); }
   double event_share_by_chance() const { return Share(fired_on_map_beside, static_cast<double>(fired)); }
-  /// 0: the map lies on the events no better than beside them; 1: all of it does, and nothing would by chance.
+  /// 0: the map lies on the events no better than beside them; 1: all of it does, and nothing would by
+  /// chance.
   double kappa() const {
     const double chance = point_share_by_chance();
     return chance < 1 ? (point_share() - chance) / (1 - chance) : 0;
@@ -49,7 +50,8 @@ struct MapEventOverlap {
   }
   /// Events per pixel of the map's edges and pixel of motion.
   double events_per_edge_pixel() const {
-    const double swept = static_cast<double>(map_pixels) * (views > 0 ? moved_px / static_cast<double>(views) : 0);
+    const double swept =
+        static_cast<double>(map_pixels) * (views > 0 ? moved_px / static_cast<double>(views) : 0);
     return swept > 0 ? static_cast<double>(events) * event_share() / swept : 0;
   }
 

@@ -38,7 +38,8 @@ class OverlapTest : public ::testing::Test {
         Eigen::Vector2d pixel;
         if (!rig_.camera.Project(T_camera_map * p.cast<double>(), &pixel) || !rig_.camera.Contains(pixel, 12))
           continue;
-        events.push_back((view.begin + view.end) / 2, static_cast<std::uint16_t>(std::lround(pixel.x() + shift)),
+        events.push_back((view.begin + view.end) / 2,
+                         static_cast<std::uint16_t>(std::lround(pixel.x() + shift)),
                          static_cast<std::uint16_t>(std::lround(pixel.y())), 1);
         if (events.size() == 100) {
           filler.AddEvents(events);

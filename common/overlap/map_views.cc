@@ -6,7 +6,7 @@
 namespace evit {
 namespace {
 
-constexpr Utime kAround = 10'000;  // us: half of the time over which a view's motion is taken
+constexpr Utime kAround = 10'000;    // us: half of the time over which a view's motion is taken
 constexpr std::size_t kFewest = 20;  // points in view
 
 double MedianSpeed(const Camera& camera, const std::vector<Eigen::Vector3f>& points, const SE3& before,
@@ -51,8 +51,8 @@ std::vector<MapView> PlanViews(const MapIndex& map, const Rig& rig, const Trajec
     view.speed_px =
         MedianSpeed(rig.camera, view.points, before * rig.T_body_camera, after * rig.T_body_camera);
     const double lasts = 1e6 * options.slice_px / std::max(view.speed_px, 1e-3);
-    const Utime half =
-        std::llround(std::clamp(lasts, static_cast<double>(options.shortest), static_cast<double>(options.longest)) / 2);
+    const Utime half = std::llround(
+        std::clamp(lasts, static_cast<double>(options.shortest), static_cast<double>(options.longest)) / 2);
     view.begin = t - rig.camera_time_offset - half;
     view.end = t - rig.camera_time_offset + half;
     view.fired = PixelSet(rig.camera.width, rig.camera.height);
@@ -68,7 +68,8 @@ void ViewFiller::AddEvents(const EventArray& events) {
     MapView& view = (*views_)[v];
     const auto begin = std::lower_bound(events.t.begin(), events.t.end(), view.begin),
                end = std::lower_bound(begin, events.t.end(), view.end);
-    for (auto k = static_cast<std::size_t>(begin - events.t.begin()); k < static_cast<std::size_t>(end - events.t.begin()); ++k) {
+    for (auto k = static_cast<std::size_t>(begin - events.t.begin());
+         k < static_cast<std::size_t>(end - events.t.begin()); ++k) {
       if (events.x[k] >= view.fired.width() || events.y[k] >= view.fired.height()) continue;
       view.fired.Add(events.x[k], events.y[k]);
       ++view.n_events;

@@ -18,9 +18,7 @@ class PixelSet {
   /// Outside the image: does nothing.
   void Add(int x, int y);
   /// Outside the image: false.
-  bool Has(int x, int y) const {
-    return x >= 0 && y >= 0 && x < width_ && y < height_ && bits_[Index(x, y)];
-  }
+  bool Has(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_ && bits_[Index(x, y)]; }
 
  private:
   std::size_t Index(int x, int y) const {
@@ -38,8 +36,8 @@ class NearestPixel {
   /// `reach` > 0: pixels.
   explicit NearestPixel(double reach);
 
-  /// From `at` (pixels; the middle of the top left one is (0, 0)) to the middle of the nearest pixel of `set`.
-  /// False where none is within reach.
+  /// From `at` (pixels; the middle of the top left one is (0, 0)) to the middle of the nearest pixel of
+  /// `set`. False where none is within reach.
   bool Find(const PixelSet& set, const Eigen::Vector2d& at, Eigen::Vector2d* offset) const;
 
  private:

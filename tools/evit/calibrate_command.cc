@@ -8,6 +8,7 @@
 #include "common/config/settings_file.h"
 #include "common/geometry/pose_text.h"
 #include "tools/calibration/calibration_report.h"
+#include "tools/calibration/overlap_run.h"
 #include "tools/calibration/recorded_motion.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/data_file.h"
@@ -19,7 +20,7 @@ namespace {
 
 struct CalibrateOptions {
   run::RunJob job;  // the event-only run
-  std::string pose, from, seconds, out, poses;
+  std::string pose, from, seconds, out, poses, truth;
 };
 
 // Runs the event-only tracker; the file of its poses.
@@ -45,7 +46,34 @@ std::string Track(CalibrateOptions* o) {
   return job.out + "/trajectory.tum";
 }
 
+// By the overlap of map and events at known poses.
+void CalibrateWithTruth(const CalibrateOptions& o) {
+  calibration::OverlapFiles files{o.job.log, o.job.map, o.truth, {}};
+  if (!o.seconds.empty()) files.seconds = ParseSeconds(o.seconds);
+  const Rig before = LoadRig(o.job.rig);
+  const Trajectory body = calibration::ReadTruth(files);
+  std::printf("reading %s\n", o.job.log.c_str());
+  std::fflush(stdout);
+  const std::vector<MapView> views = calibration::ReadViews(files, before, body);
+  std::printf("calibrating from %zu views\n", views.size());
+  std::fflush(stdout);
+  const OverlapCalibration found = CalibrateByOverlap(views, body, before);
+  if (!found.success) throw std::runtime_error("not calibrated: " + found.reason);
+  std::printf("%s", calibration::OverlapText(before, found).c_str());
+  if (o.out.empty()) return;
+  Rig rig = before;
+  rig.T_body_camera = found.T_body_camera;
+  rig.camera_time_offset = found.offset;
+  WriteRig(o.out, rig, LoadRigName(o.job.rig),
+           calibration::OverlapRigComment(before, found,
+                                          "From " + o.job.log + ", " + o.job.map + " and " + o.truth +
+                                              ", starting from " + o.job.rig + "."));
+  std::printf("rig file: %s\n", o.out.c_str());
+}
+
 void Calibrate(CalibrateOptions* o) {
+  if (!o->truth.empty()) return CalibrateWithTruth(*o);
+  if (o->out.empty()) throw std::runtime_error("--out is required without --truth: the rig file to write");
   const run::RunJob& job = o->job;
   const Rig before = LoadRig(job.rig);
   const std::string poses = o->poses.empty() ? Track(o) : o->poses;
@@ -79,10 +107,16 @@ void AddCalibrateCommand(CLI::App* app) {
       calibrate->add_option("--initial-pose", o->pose, "Body in the map at the start: \"x y z qx qy qz qw\"");
   auto* from = calibrate->add_option("--initial-from", o->from, "Take the pose from this trajectory (TUM)");
   pose->excludes(from);
-  calibrate->add_option("--poses", o->poses,
-                        "OUT.evt/trajectory.tum of an earlier event-only run with the same rig file, instead "
-                        "of tracking again");
-  calibrate->add_option("--out", o->out, "Rig file to write")->required();
+  auto* poses = calibrate->add_option(
+      "--poses", o->poses,
+      "OUT.evt/trajectory.tum of an earlier event-only run with the same rig file, instead "
+      "of tracking again");
+  auto* truth = calibrate->add_option("--truth", o->truth,
+                                      "Known poses of the body in the map (TUM, as evit import writes them): "
+                                      "extrinsics and time offset from the "
+                                      "overlap of map and events, without tracking and without the IMU");
+  for (CLI::Option* other : {pose, from, poses}) truth->excludes(other);
+  calibrate->add_option("--out", o->out, "Rig file to write; with --truth only if given");
   calibrate->add_option("--seconds", o->seconds, "A:B in s, use only this part of the log");
   calibrate->add_option("--config", o->job.config, "Event-only tracking (default: config/evt.textproto)");
   calibrate->add_option("--work", o->job.out, "Folder for the event-only run (default: OUT.evt)");

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/calibration/overlap_calibration.h"
+
+namespace evit::calibration {
+
+/// What a map, a recording and known poses of the body come from.
+struct OverlapFiles {
+  std::string log, map, truth;                       // truth: TUM, body in the map frame, IMU clock
+  std::optional<std::pair<double, double>> seconds;  // part of the truth, from its first pose
+};
+
+/// The views of these files, some 33 ms apart or farther where the recording is long, their events filled in.
+/// Throws std::runtime_error naming the file and what is wrong.
+std::vector<MapView> ReadViews(const OverlapFiles& files, const Rig& rig, const Trajectory& body);
+
+/// The poses of the part asked for.
+Trajectory ReadTruth(const OverlapFiles& files);
+
+/// What was found, as a table, with the overlap before and after.
+std::string OverlapText(const Rig& before, const OverlapCalibration& found);
+/// The same as a rig file's comment. `sources`: which files it comes from.
+std::string OverlapRigComment(const Rig& before, const OverlapCalibration& found, const std::string& sources);
+
+}  // namespace evit::calibration
