@@ -82,12 +82,17 @@ Trajectory ReadTruth(const OverlapFiles& files) {
   return body;
 }
 
-std::vector<MapView> ReadViews(const OverlapFiles& files, const Rig& rig, const Trajectory& body) {
+MapViewOptions CalibrationViews() {
   MapViewOptions options;
-  options.step = std::max(kStep, (body.back().t - body.front().t) / kMostViews);
   options.margin_px = kMarginPx;
   options.slice_px = kSlicePx;
   options.longest = kLongest;
+  return options;
+}
+
+std::vector<MapView> ReadViews(const OverlapFiles& files, const Rig& rig, const Trajectory& body,
+                               MapViewOptions options) {
+  options.step = std::max(kStep, (body.back().t - body.front().t) / kMostViews);
   std::vector<MapView> views = PlanViews(MapIndex(LoadMap(files.map).map), rig, body, options);
   if (views.empty()) {
     throw std::runtime_error(

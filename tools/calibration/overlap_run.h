@@ -14,9 +14,13 @@ struct OverlapFiles {
   std::optional<std::pair<double, double>> seconds;  // part of the truth, from its first pose
 };
 
-/// The views of these files, some 33 ms apart or farther where the recording is long, their events filled in.
-/// Throws std::runtime_error naming the file and what is wrong.
-std::vector<MapView> ReadViews(const OverlapFiles& files, const Rig& rig, const Trajectory& body);
+/// For CalibrateByOverlap: a wide margin, long slices.
+MapViewOptions CalibrationViews();
+
+/// The views of these files, some 33 ms apart or farther where the recording is long (the options' step does
+/// not count), their events filled in. Throws std::runtime_error naming the file and what is wrong.
+std::vector<MapView> ReadViews(const OverlapFiles& files, const Rig& rig, const Trajectory& body,
+                               MapViewOptions options = {});
 
 /// The poses of the part asked for.
 Trajectory ReadTruth(const OverlapFiles& files);

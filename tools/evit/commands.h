@@ -17,6 +17,7 @@ void AddMapPhotometric(CLI::App* map);
 void AddSimulateCommand(CLI::App* app);
 void AddEvalCommand(CLI::App* app);
 void AddCalibrateCommand(CLI::App* app);
+void AddOverlapCommand(CLI::App* app);
 void AddRunCommand(CLI::App* app);
 /// show, check.
 void AddConfigCommand(CLI::App* app);

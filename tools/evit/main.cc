@@ -33,6 +33,7 @@ int Main(int argc, char** argv) {
   evit::commands::AddRunCommand(&app);
   evit::commands::AddEvalCommand(&app);
   evit::commands::AddCalibrateCommand(&app);
+  evit::commands::AddOverlapCommand(&app);
   evit::commands::AddConfigCommand(&app);
   evit::commands::AddPaperCommand(&app);
   evit::commands::AddUpCommand(&app);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/simulation/builtin_motion.h"
+#include "tools/simulation/profile.h"
 
 namespace evit::commands {
 namespace {
@@ -80,6 +81,21 @@ void SimulateOptions::AddTo(CLI::App* command) {
   command->option_defaults()->always_capture_default();
   command->add_option("--trajectory", s.trajectory.source, "TUM file, or " + simulation::BuiltinMotionNames())
       ->required();
+  // At once when it is read, so that options beside it, which are set at the end, have the last word.
+  command
+      ->add_option_function<std::string>(
+          "--profile",
+          [this](const std::string& name) {
+            settings_.profile = name;
+            simulation::Profile profile{};
+            simulation::ProfileFromName(name, &profile);
+            simulation::ApplyProfile(profile, &settings_);
+          },
+          "Errors of sensor and map: ideal; camera-map: the map of an image-based mapper; sensor: latency by "
+          "light, "
+          "drift, bursts, blur, vibration; real: both")
+      ->check(CLI::IsMember({"ideal", "camera-map", "sensor", "real"}))
+      ->trigger_on_parse();
   command->add_option("--scene", s.room.seed, "Seed of the room");
   command->add_option("--out", s.out, "Folder to write")->required();
   command->add_option("--name", s.name, "Name of the sequence (default: of the trajectory)");
@@ -135,12 +151,26 @@ void SimulateOptions::AddSensors(CLI::App* command) {
   camera.Add("--threshold-spread", &s.threshold_spread, "Its standard deviation over pixels, share");
   camera.Add("--low-pass-ms", &s.low_pass_ms, "Time constant of the photoreceptor");
   camera.Add("--refractory-ms", &s.refractory_ms, "Refractory time");
+  camera.Add("--bright-grey", &s.bright_grey,
+             "Light (0..255) at which --low-pass-ms holds, darker is slower; 0: alike");
+  camera.Add("--threshold-drift", &s.threshold_drift, "Drift of all thresholds over seconds, share");
+  camera.Add("--leak-hz", &s.leak_hz, "Brighter events of a pixel that sees no change");
+  camera.Add("--lens-blur", &settings_.optics.blur_px, "Blur of the lens, px");
+  camera.Add("--saturation", &settings_.optics.saturation_grey,
+             "Light (0..255) beyond which nothing changes; 0: none");
+  camera.Add("--burst-share", &settings_.readout.burst_share,
+             "Events that are followed by another of their pixel, share");
+  camera.Add("--readout-hz", &settings_.readout.rate_hz,
+             "Events read out in a second at most; 0: any number");
   camera.Add("--noise-hz", &s.noise_hz, "Background events per pixel and second");
   camera.Add("--hot-pixels", &s.hot_pixels, "Number of hot pixels");
   camera.Add("--max-step-px", &settings_.max_step_px, "Image motion between renders");
   const Group imu(command, "IMU");
   imu.Add("--accel-bias", &settings_.imu.accel_bias, "Initial bias, m/s^2, in a random direction");
   imu.Add("--gyro-bias", &settings_.imu.gyro_bias, "Initial bias, rad/s, in a random direction");
+  imu.Add("--vibration-accel", &settings_.imu.vibration_accel,
+          "Vibration of the mount, m/s^2 rms of an axis");
+  imu.Add("--vibration-gyro", &settings_.imu.vibration_gyro, "The same, rad/s");
   imu.Add("--imu-noise", &settings_.imu.noise_factor, "Factor on the rig's noise densities");
 }
 
@@ -154,6 +184,15 @@ void SimulateOptions::AddMap(CLI::App* command) {
   group.Add("--map-outliers", &s.outlier_share, "Share of outliers");
   group.Add("--map-outlier-distance", &s.outlier_m, "m");
   group.Add("--map-voxel", &s.voxel_m, "m");
+  simulation::ImageMapSettings& images = s.images;
+  group.Flag("--map-from-images", &images.on,
+             "As an image-based mapper makes it; the options above but for the voxel do not count");
+  group.Add("--map-image-scale", &images.scale, "Size of the mapper's images, share of the event camera's");
+  group.Add("--map-grey-threshold", &images.grey_threshold, "Grey levels per pixel: an edge in an image");
+  group.Add("--map-match-px", &images.match_px,
+            "Error of a match along the epipolar line, px of the mapper's image");
+  group.Add("--map-missing", &images.missing_share, "Share of pieces of edges that find no match");
+  group.Add("--map-view-turn", &images.view_turn_deg, "Error of a mapper's view, deg per axis");
   group.Add("--map-max-points", &s.max_points, "Points kept at most");
   group.Add("--map-holes", &holes_, "This share of the map is missing, in balls of this diameter")
       ->check(Form("SHARE:METRES", "SHARE:METRES, e.g. 0.5:0.6", [](const std::string& text) {

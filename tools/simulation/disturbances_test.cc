@@ -42,7 +42,7 @@ EventArray Events(const Rig& rig, const Scene& scene, const Motion& motion, cons
   sensor.hot_pixels = 0;
   EventArray all;
   SimulateEvents(
-      renderer, motion.spline, rig, schedule, disturbances, sensor, 1, 2,
+      renderer, motion.spline, rig, schedule, disturbances, {{}, sensor, {}}, 1, 2,
       [&](const EventArray& part) {
         for (std::size_t i = 0; i < part.size(); ++i)
           all.push_back(part.t[i], part.x[i], part.y[i], part.p[i]);

@@ -6,21 +6,12 @@
 
 #include "common/geometry/rig.h"
 #include "common/map/point_map.h"
+#include "tools/simulation/edge_pixels.h"
 #include "tools/simulation/map_settings.h"
 #include "tools/simulation/pose_spline.h"
 #include "tools/simulation/renderer.h"
 
 namespace evit::simulation {
-
-/// A point on an edge in the image: where, and the inverse depth of the nearer surface there.
-struct EdgePixel {
-  Eigen::Vector2d pixel;   // subpixel
-  Eigen::Vector2d normal;  // unit, along the gradient
-  double inverse_depth;    // 1/m
-};
-
-/// Local maxima of the gradient of log intensity along its direction.
-std::vector<EdgePixel> FindEdges(const View& view, int width, int height, double threshold);
 
 /// Stamps of the views a map is made from: each at some distance or angle from all before.
 std::vector<Utime> ChooseMapViews(const PoseSpline& motion, Utime begin, Utime end,
@@ -29,7 +20,8 @@ std::vector<Utime> ChooseMapViews(const PoseSpline& motion, Utime begin, Utime e
 /// By how much view i is misplaced, m, in the map frame.
 Eigen::Vector3d ViewMisplacement(const MapSettings& settings, std::uint64_t seed, int i);
 
-/// The map that posed depth views along the path would give: edges put into space, in random (seeded) order.
+/// The map that posed depth views along the path would give, or posed images where settings.images is on:
+/// edges put into space, in random (seeded) order.
 PointMap MakeEdgeMap(const Renderer& renderer, const Rig& rig, const PoseSpline& motion, Utime begin,
                      Utime end, const MapSettings& settings, std::uint64_t seed, int threads, int* n_views);
 

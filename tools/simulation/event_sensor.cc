@@ -27,7 +27,10 @@ EventSensor::EventSensor(int width, int height, const EventSensorSettings& setti
       height_(height),
       dark_(static_cast<float>(settings.dark)),
       tau_us_(static_cast<float>(std::max(1e-3, settings.low_pass_ms * 1e3))),
-      refractory_us_(static_cast<std::int32_t>(std::lround(settings.refractory_ms * 1e3))) {
+      refractory_us_(static_cast<std::int32_t>(std::lround(settings.refractory_ms * 1e3))),
+      bright_(static_cast<float>(settings.bright_grey)),
+      leak_per_us_(static_cast<float>(settings.leak_hz * settings.threshold * 1e-6)),
+      drift_(static_cast<float>(settings.threshold_drift)) {
   const std::size_t n = static_cast<std::size_t>(width) * height;
   input_.assign(n, 0);
   level_.assign(n, 0);
@@ -35,6 +38,11 @@ EventSensor::EventSensor(int width, int height, const EventSensorSettings& setti
   threshold_on_.resize(n);
   threshold_off_.resize(n);
   free_from_.assign(n, 0);
+  Random waves(seed, 0xD71F7);
+  for (int k = 0; k < 2; ++k) {
+    drift_waves_[k] = 6.283185307179586e-6 / waves.Uniform(3, 12);  // periods of some seconds
+    drift_waves_[2 + k] = waves.Uniform(0, 6.283185307179586);
+  }
   Random random(seed, 0xE7);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::vector<float>* threshold : {&threshold_on_, &threshold_off_}) {
@@ -54,36 +62,69 @@ void EventSensor::Start(int row_begin, int row_end, const float* image) {
   }
 }
 
+float EventSensor::DriftAt(std::int32_t t) const {
+  const auto wave = [&](int k) { return std::sin(drift_waves_[k] * t + drift_waves_[2 + k]); };
+  return 1 + drift_ * static_cast<float>(wave(0) + wave(1));
+}
+
+// Exact answer of the low pass to an input that goes from input[x] to `now` in a straight line.
+EVIT_MULTIVERSION void EventSensor::LowPass(const float* source, float* input, float* level, float dt) const {
+  const float keep = std::exp(-dt / tau_us_), lag = tau_us_ / dt;
+  for (int x = 0; x < width_; ++x) {
+    const float now = FastLog(source[x] + dark_);
+    const float delay = (now - input[x]) * lag;
+    level[x] = now - delay + (level[x] - input[x] + delay) * keep;
+    input[x] = now;
+  }
+}
+
+// The same with a time constant for each pixel; exp(-z) as the reciprocal of the series of exp(z), which
+// stays within 0..1 and 2 % of it where it matters (z below 2).
+EVIT_MULTIVERSION void EventSensor::LowPassByLight(const float* source, float* input, float* level,
+                                                   float dt) const {
+  const float bright = bright_ + dark_;
+  for (int x = 0; x < width_; ++x) {
+    const float light = source[x] + dark_;
+    const float tau = tau_us_ * std::max(1.0F, bright / light);
+    const float z = dt / tau, keep = 1 / (1 + z * (1 + z * (0.5F + z * (1.0F / 6 + z * (1.0F / 24)))));
+    const float now = FastLog(light);
+    const float delay = (now - input[x]) * tau / dt;
+    level[x] = now - delay + (level[x] - input[x] + delay) * keep;
+    input[x] = now;
+  }
+}
+
 EVIT_MULTIVERSION void EventSensor::Step(int row_begin, int row_end, const float* image, std::int32_t t0,
                                          std::int32_t t1, std::vector<Event>* events) {
-  const float dt = static_cast<float>(t1 - t0), keep = std::exp(-dt / tau_us_), lag = tau_us_ / dt;
+  const float dt = static_cast<float>(t1 - t0), factor = DriftAt(t1), leak = leak_per_us_ * dt;
   std::vector<float> before(width_);
   for (int y = row_begin; y < row_end; ++y) {
     const std::size_t row = static_cast<std::size_t>(y) * width_;
-    float *input = input_.data() + row, *level = level_.data() + row;
-    const float* source = image + row;
-    for (int x = 0; x < width_; ++x) {
-      // Exact answer of the low pass to an input that goes from input[x] to `now` in a straight line.
-      const float now = FastLog(source[x] + dark_);
-      const float delay = (now - input[x]) * lag;
-      before[x] = level[x];
-      level[x] = now - delay + (level[x] - input[x] + delay) * keep;
-      input[x] = now;
+    float* level = level_.data() + row;
+    std::copy(level, level + width_, before.begin());
+    if (bright_ > 0) {
+      LowPassByLight(image + row, input_.data() + row, level, dt);
+    } else {
+      LowPass(image + row, input_.data() + row, level, dt);
     }
-    const float *stored = stored_.data() + row, *on = threshold_on_.data() + row,
-                *off = threshold_off_.data() + row;
+    float* stored = stored_.data() + row;
+    if (leak > 0) {
+      for (int x = 0; x < width_; ++x) stored[x] -= leak;
+    }
+    const float *on = threshold_on_.data() + row, *off = threshold_off_.data() + row;
     const std::int32_t* free_from = free_from_.data() + row;
     for (int x = 0; x < width_; ++x) {
       const float change = level[x] - stored[x];
-      if ((change >= on[x]) | (-change >= off[x]) | (free_from[x] > t0)) {
-        Fire(row + x, x, y, before[x], level[x], t0, t1, events);
+      if ((change >= factor * on[x]) | (-change >= factor * off[x]) | (free_from[x] > t0)) {
+        Fire(row + x, x, y, before[x], level[x], t0, t1, factor, events);
       }
     }
   }
 }
 
 void EventSensor::Fire(std::size_t i, int x, int y, float y0, float y1, std::int32_t t0, std::int32_t t1,
-                       std::vector<Event>* events) {
+                       float factor, std::vector<Event>* events) {
+  const float on = factor * threshold_on_[i], off = factor * threshold_off_[i];
   const float dt = static_cast<float>(t1 - t0), slope = (y1 - y0) / dt;
   std::int32_t from = t0;
   while (true) {
@@ -96,9 +137,9 @@ void EventSensor::Fire(std::size_t i, int x, int y, float y0, float y1, std::int
       stored_[i] = y0 + slope * static_cast<float>(from - t0);
     }
     const float change = y1 - stored_[i];
-    const bool up = change >= threshold_on_[i], down = -change >= threshold_off_[i];
+    const bool up = change >= on, down = -change >= off;
     if (!up && !down) return;
-    stored_[i] += up ? threshold_on_[i] : -threshold_off_[i];
+    stored_[i] += up ? on : -off;
     const float offset = slope != 0 ? (stored_[i] - y0) / slope : dt;
     const std::int32_t t =
         std::clamp(t0 + static_cast<std::int32_t>(std::ceil(offset)), std::max(from, t0 + 1), t1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,10 @@ struct EventSensorSettings {
   int hot_pixels = 12;
   double hot_min_hz = 200, hot_max_hz = 800;
   double dark = 3;  // grey added before the logarithm (dark current)
+  // What profiles beyond `ideal` have.
+  double bright_grey = 0;      // grey at which low_pass_ms holds, darker pixels are slower; 0: all alike
+  double threshold_drift = 0;  // standard deviation of all thresholds together over seconds, share
+  double leak_hz = 0;          // brighter events of a pixel that sees no change
 };
 
 /// Natural logarithm, error below 1e-4: fast in vector code.
@@ -26,6 +31,10 @@ float FastLog(float x);
 /// thresholds. Between two images log intensity changes linearly. After an event the stored level is the
 /// threshold that was crossed; while refractory the pixel is held in reset, its stored level follows the
 /// input.
+///
+/// Where `bright_grey` is set, the time constant is inverse to the light, as a photoreceptor's bandwidth is
+/// proportional to its photocurrent (v2e, Sec. 3). Leaks lower the stored level at an even rate (v2e, Sec.
+/// 4).
 class EventSensor {
  public:
   struct Event {
@@ -45,12 +54,18 @@ class EventSensor {
             std::vector<Event>* events);
 
  private:
-  void Fire(std::size_t i, int x, int y, float y0, float y1, std::int32_t t0, std::int32_t t1,
+  void LowPass(const float* source, float* input, float* level, float dt) const;
+  void LowPassByLight(const float* source, float* input, float* level, float dt) const;
+  float DriftAt(std::int32_t t) const;
+  void Fire(std::size_t i, int x, int y, float y0, float y1, std::int32_t t0, std::int32_t t1, float factor,
             std::vector<Event>* events);
 
   int width_, height_;
   float dark_, tau_us_;
   std::int32_t refractory_us_;
+  float bright_, leak_per_us_;
+  float drift_;
+  std::array<double, 4> drift_waves_{};  // two rates (rad/us), two phases
   std::vector<float> input_, level_,
       stored_;  // log intensity: newest input, low-passed, stored by the detector
   std::vector<float> threshold_on_, threshold_off_;

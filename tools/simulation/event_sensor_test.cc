@@ -141,5 +141,37 @@ TEST(SortByTime, KeepsTheOrderOfEqualStamps) {
   EXPECT_EQ(order, (std::vector<int>{2, 5, 4, 1, 3}));
 }
 
+TEST(EventSensor, DarkPixelsAreSlowWhereLightCounts) {
+  EventSensorSettings settings = Ideal();
+  settings.low_pass_ms = 1;
+  settings.bright_grey = 1e5;  // all of this edge is far darker
+  const std::vector<Event> slow = WatchEdge(settings, 0.35, false);
+  settings.bright_grey = 0;
+  const std::vector<Event> even = WatchEdge(settings, 0.35, false);
+  ASSERT_FALSE(slow.empty());
+  EXPECT_GT(slow.front().t, even.front().t);
+  settings.bright_grey = 1e-3;  // all of it is brighter: nothing is slower
+  EXPECT_EQ(WatchEdge(settings, 0.35, false).size(), even.size());
+}
+
+TEST(EventSensor, LeaksMakeBrighterEventsWithoutChange) {
+  EventSensorSettings settings = Ideal();
+  settings.leak_hz = 5;
+  EventSensor sensor(50, 1, settings, 2);
+  const std::vector<float> image(50, 100.0F);
+  sensor.Start(0, 1, image.data());
+  std::vector<Event> events;
+  for (int t = 0; t < 4'000'000; t += 2'000) sensor.Step(0, 1, image.data(), t, t + 2'000, &events);
+  EXPECT_NEAR(static_cast<double>(events.size()), 50 * 5 * 4, 60);
+  for (const Event& event : events) EXPECT_EQ(event.p, 1);
+}
+
+TEST(EventSensor, DriftMovesAllThresholdsTogether) {
+  EventSensorSettings settings = Ideal();
+  const std::size_t even = WatchEdge(settings, 0.35, false).size();
+  settings.threshold_drift = 0.2;
+  EXPECT_NE(WatchEdge(settings, 0.35, false).size(), even);
+}
+
 }  // namespace
 }  // namespace evit::simulation

@@ -32,12 +32,13 @@ class PeakMeter {
 
 EventCounts SimulateEvents(const Renderer& renderer, const PoseSpline& motion, const Rig& rig,
                            const RenderSchedule& schedule, const Disturbances& disturbances,
-                           const EventSensorSettings& settings, std::uint64_t seed, int threads,
+                           const CameraSettings& settings, std::uint64_t seed, int threads,
                            const std::function<void(const EventArray&)>& sink,
                            const std::function<void(double)>& progress) {
   const int width = renderer.camera().width, height = renderer.camera().height;
-  EventSensor sensor(width, height, settings, seed);
-  NoiseSource noise(width, height, settings, seed);
+  EventSensor sensor(width, height, settings.sensor, seed);
+  NoiseSource noise(width, height, settings.sensor, seed);
+  Readout readout(settings.readout, seed);
   const Utime begin = schedule.times.front();
   const auto relative = [&](int k) { return static_cast<std::int32_t>(schedule.times[k] - begin); };
   std::vector<View> views(kBatch);
@@ -53,8 +54,10 @@ EventCounts SimulateEvents(const Renderer& renderer, const PoseSpline& motion, c
       if (disturbances.box) moving = disturbances.box->At(t);
       renderer.Render(motion.Pose(t) * rig.T_body_camera, &views[k], moving);
       const auto light = static_cast<float>(disturbances.lamp.Factor(t) * disturbances.cover.Factor(t));
-      if (light == 1) return;
-      for (float& pixel : views[k].image) pixel *= light;
+      if (light != 1) {
+        for (float& pixel : views[k].image) pixel *= light;
+      }
+      ApplyOptics(settings.optics, width, height, &views[k].image);
     });
     std::vector<std::vector<EventSensor::Event>> events(static_cast<std::size_t>(kBands) * kBatch);
     ParallelFor(kBands, threads, [&](int band) {
@@ -80,6 +83,7 @@ EventCounts SimulateEvents(const Renderer& renderer, const PoseSpline& motion, c
       noise.Until(relative(first + k), &step);
       counts.noise += step.size() - before;
       SortByTime(relative(first + k - 1), relative(first + k), &step);
+      readout.Pass(relative(first + k), &step);
       for (const EventSensor::Event& event : step) {
         out.push_back(begin + event.t, event.x, event.y, event.p);
         ++(event.p ? counts.positive : counts.negative);
@@ -89,6 +93,7 @@ EventCounts SimulateEvents(const Renderer& renderer, const PoseSpline& motion, c
     sink(out);
     if (progress) progress(static_cast<double>(first + count) / n);
   }
+  counts.lost = readout.lost();
   return counts;
 }
 

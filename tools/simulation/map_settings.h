@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "tools/simulation/image_map.h"
 #include "tools/simulation/map_holes.h"
 
 namespace evit::simulation {
@@ -20,6 +21,7 @@ struct MapSettings {
   double voxel_m = 0.006;            // one point for each voxel
   std::size_t max_points = 150'000;  // beyond it, a random part is kept
   MapHoles holes;
+  ImageMapSettings images;  // on: in place of the depth camera, with its own errors
 };
 
 }  // namespace evit::simulation

@@ -71,7 +71,7 @@ class Json {
 
 void WriteReport(const std::string& path, const SimulationSettings& settings, const SimulationSummary& s) {
   Json json;
-  json.Open("").Text("name", s.name).Text("command", settings.command);
+  json.Open("").Text("name", s.name).Text("command", settings.command).Text("profile", settings.profile);
   json.Number("scene_seed", static_cast<double>(settings.room.seed))
       .Number("seed", static_cast<double>(settings.seed));
   json.Text("room", RoomName(settings.room.kind))
@@ -89,10 +89,20 @@ void WriteReport(const std::string& path, const SimulationSettings& settings, co
   json.Number("threshold_spread", settings.sensor.threshold_spread);
   json.Number("low_pass_ms", settings.sensor.low_pass_ms)
       .Number("refractory_ms", settings.sensor.refractory_ms);
-  json.Number("noise_hz", settings.sensor.noise_hz).Number("hot_pixels", settings.sensor.hot_pixels).Close();
+  json.Number("noise_hz", settings.sensor.noise_hz).Number("hot_pixels", settings.sensor.hot_pixels);
+  json.Number("bright_grey", settings.sensor.bright_grey)
+      .Number("threshold_drift", settings.sensor.threshold_drift);
+  json.Number("leak_hz", settings.sensor.leak_hz).Number("lens_blur_px", settings.optics.blur_px);
+  json.Number("saturation_grey", settings.optics.saturation_grey)
+      .Number("burst_share", settings.readout.burst_share);
+  json.Number("readout_hz", settings.readout.rate_hz)
+      .Number("lost", static_cast<double>(s.events.lost))
+      .Close();
   json.Open("imu")
       .Number("samples", static_cast<double>(s.n_imu))
-      .Number("noise_factor", settings.imu.noise_factor);
+      .Number("noise_factor", settings.imu.noise_factor)
+      .Number("vibration_accel", settings.imu.vibration_accel)
+      .Number("vibration_gyro", settings.imu.vibration_gyro);
   json.Vector("first_gyro_bias", s.first_bias.gyro).Vector("first_accel_bias", s.first_bias.accel);
   json.Vector("last_gyro_bias", s.last_bias.gyro).Vector("last_accel_bias", s.last_bias.accel).Close();
   json.Open("events").Number("total", static_cast<double>(s.events.total()));

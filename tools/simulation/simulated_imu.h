@@ -12,6 +12,9 @@ struct ImuSettings {
   double accel_bias = 0.06;  // m/s^2, length of the first bias (direction by chance)
   double gyro_bias = 0.006;  // rad/s
   double noise_factor = 1;   // of the rig's densities and random walks; 0: none
+  // Vibration of the mount, 20 to 90 Hz, rms of an axis: far too small a motion for the camera to see.
+  double vibration_accel = 0;  // m/s^2
+  double vibration_gyro = 0;   // rad/s
 };
 
 struct SimulatedImu {

@@ -7,6 +7,8 @@
 #include "tools/simulation/event_sensor.h"
 #include "tools/simulation/map_settings.h"
 #include "tools/simulation/motion_settings.h"
+#include "tools/simulation/optics.h"
+#include "tools/simulation/readout.h"
 #include "tools/simulation/room_settings.h"
 #include "tools/simulation/simulated_imu.h"
 
@@ -16,12 +18,15 @@ namespace evit::simulation {
 struct SimulationSettings {
   MotionSettings trajectory;
   RoomSettings room;
-  std::uint64_t seed = 1;    // all noise
-  std::string name;          // of the sequence; empty: from the trajectory
-  std::string out;           // folder, made where missing
-  std::string command;       // kept in simulation.json
-  double max_step_px = 0.7;  // image motion between two renders
+  std::uint64_t seed = 1;         // all noise
+  std::string profile = "ideal";  // that was applied (profile.h): kept in simulation.json
+  std::string name;               // of the sequence; empty: from the trajectory
+  std::string out;                // folder, made where missing
+  std::string command;            // kept in simulation.json
+  double max_step_px = 0.7;       // image motion between two renders
+  OpticsSettings optics;
   EventSensorSettings sensor;
+  ReadoutSettings readout;
   ImuSettings imu;
   MapSettings map;
   DisturbanceSettings disturbances;

@@ -39,6 +39,22 @@ void Check(const SimulationSettings& s, const Rig& rig) {
   require(s.imu.noise_factor >= 0 && s.imu.accel_bias >= 0 && s.imu.gyro_bias >= 0,
           "IMU errors must not be negative");
   require(s.map.voxel_m >= 1e-3 && s.map.voxel_m <= 1, "voxel must be 0.001 to 1 m");
+  require(s.sensor.bright_grey >= 0 && s.sensor.leak_hz >= 0 && s.sensor.leak_hz <= 1000,
+          "light and leaks of the sensor must not be negative, leaks at most 1000 Hz");
+  require(s.sensor.threshold_drift >= 0 && s.sensor.threshold_drift <= 0.3,
+          "threshold drift must be 0 to 0.3");
+  require(s.optics.blur_px >= 0 && s.optics.blur_px <= 10, "lens blur must be 0 to 10 px");
+  require(s.optics.saturation_grey >= 0, "saturation must not be negative");
+  require(s.readout.burst_share >= 0 && s.readout.burst_share <= 0.9, "bursts must be 0 to 0.9");
+  require(s.readout.rate_hz == 0 || s.readout.rate_hz >= 1e4, "readout must be 0 or at least 10000 events/s");
+  require(s.imu.vibration_accel >= 0 && s.imu.vibration_gyro >= 0, "vibration must not be negative");
+  const ImageMapSettings& images = s.map.images;
+  require(images.scale >= 0.1 && images.scale <= 2,
+          "the mapper's images must be 0.1 to 2 of the camera's size");
+  require(images.grey_threshold > 0 && images.match_px >= 0,
+          "the mapper's threshold must be over 0, errors not below");
+  require(images.missing_share >= 0 && images.missing_share < 1, "missing pieces must be a share of 0 to 1");
+  require(images.view_turn_deg >= 0 && images.view_turn_deg < 5, "a view's error must be 0 to 5 deg");
   require(s.map.interval_s >= 0.01, "map interval must be at least 0.01 s");
   require(s.map.holes.share >= 0 && s.map.holes.share < 1, "the share of holes in the map must be 0 to 1");
   require(s.map.holes.share == 0 || (s.map.holes.diameter_m >= 0.01 && s.map.holes.diameter_m <= 10),
@@ -163,7 +179,8 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
                                   motion.begin - rig.camera_time_offset);
   EventArray shifted;
   summary.events = SimulateEvents(
-      renderer, motion.spline, rig, schedule, disturbances, settings.sensor, settings.seed, settings.threads,
+      renderer, motion.spline, rig, schedule, disturbances,
+      {settings.optics, settings.sensor, settings.readout}, settings.seed, settings.threads,
       [&](const EventArray& events) {
         preview.Add(events);
         shifted = events;
