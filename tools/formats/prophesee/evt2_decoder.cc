@@ -89,7 +89,7 @@ std::size_t Evt21Decoder::Decode(const std::uint8_t* data, std::size_t size, boo
   return 8 * n;
 }
 
-bool Evt21Decoder::UpperHalfFirst(const std::uint8_t* data, std::size_t size) {
+bool Evt21Decoder::UpperHalfFirst(const std::uint8_t* data, std::size_t size, bool otherwise) {
   const auto successors = [&](bool first) {
     std::int64_t count = 0, before = -2;
     for (std::size_t k = 0; k < size / 8; ++k) {
@@ -101,7 +101,8 @@ bool Evt21Decoder::UpperHalfFirst(const std::uint8_t* data, std::size_t size) {
     }
     return count;
   };
-  return successors(true) > successors(false);
+  const std::int64_t upper_first = successors(true), whole = successors(false);
+  return upper_first == whole ? otherwise : upper_first > whole;
 }
 
 }  // namespace evit::formats

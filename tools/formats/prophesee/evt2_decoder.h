@@ -22,8 +22,9 @@ class Evt21Decoder : public EventDecoder {
   explicit Evt21Decoder(bool upper_half_first) : upper_half_first_(upper_half_first) {}
   std::size_t Decode(const std::uint8_t* data, std::size_t size, bool last, EventArray* events) override;
 
-  /// Which order the stream that begins so has, by how often one TIME_HIGH follows another.
-  static bool UpperHalfFirst(const std::uint8_t* data, std::size_t size);
+  /// Which order the stream that begins so has, by how often one TIME_HIGH follows another; `otherwise` where
+  /// that does not tell.
+  static bool UpperHalfFirst(const std::uint8_t* data, std::size_t size, bool otherwise = false);
 
  private:
   bool upper_half_first_;

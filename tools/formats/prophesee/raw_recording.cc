@@ -73,9 +73,10 @@ RawRecording::RawRecording(const std::string& path) : path_(path) {
     info_.format = "Metavision RAW, EVT 3.0";
   } else if (name == "EVT21" || name == "EVT2.1" || name == "2.1") {
     file.Fill(1 << 20);
-    const std::string order = header.Get("endianness");
+    // The header of some versions says the order of bytes only, not that of the halves: the words themselves
+    // know better.
     const bool upper_first =
-        order == "legacy" || (order.empty() && Evt21Decoder::UpperHalfFirst(file.data(), file.available()));
+        Evt21Decoder::UpperHalfFirst(file.data(), file.available(), header.Get("endianness") == "legacy");
     encoding_ = upper_first ? Encoding::kEvt21UpperFirst : Encoding::kEvt21;
     info_.format =
         std::string("Metavision RAW, EVT 2.1 (") + (upper_first ? "upper half first)" : "little-endian)");
