@@ -14,7 +14,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # Libraries by what the programs link (dpkg-shlibdeps); the rest by what a user may want besides running.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "liblcm-bin, liblcm-java, libjchart2d-java, default-jre-headless")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, g++, libceres-dev, libeigen3-dev, liblcm-dev, libopencv-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, g++, libceres-dev, libeigen3-dev, liblcm-dev, libopencv-dev, python3-numpy")
 
 # /etc/default/evit is the administrator's: dpkg asks before it replaces an edited one.
 set(ETC ${CMAKE_BINARY_DIR}/package/etc)
