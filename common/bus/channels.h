@@ -17,6 +17,8 @@ struct Channels {
   std::string keyframe = prefix + "KEYFRAME";
   std::string map_query = prefix + "MAP_QUERY";
   std::string map_points = prefix + "MAP_POINTS";
+  std::string place_query = prefix + "PLACE_QUERY";
+  std::string places = prefix + "PLACES";
   std::string window_state = prefix + "WINDOW_STATE";
   std::string body_pose = prefix + "BODY_POSE";
   std::string tracker_mode = prefix + "TRACKER_MODE";

@@ -1,5 +1,9 @@
 #include "common/bus/validate.h"
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "common/bus/field_checks.h"
 
 namespace evit {
@@ -21,6 +25,12 @@ void CheckCamera(const camera_t& camera, FieldChecks* check) {
       .Finite("camera.cx", camera.cx)
       .Finite("camera.cy", camera.cy)
       .Finite("camera.distortion", camera.distortion);
+}
+
+void CheckUnit(const char* name, const std::vector<double>& q, FieldChecks* check) {
+  double numbers[4];
+  std::copy_n(q.data(), 4, numbers);
+  check->Unit(name, numbers);
 }
 
 bool IsMode(int mode) { return mode >= tracker_mode_t::BOOTSTRAPPING && mode <= tracker_mode_t::LOST; }
@@ -138,6 +148,42 @@ bool Validate(const map_view_t& m, std::string* why) {
       .Finite("min_depth", m.min_depth)
       .That(m.min_depth > 0, "min_depth is not positive")
       .ok();
+}
+
+bool Validate(const place_query_t& m, std::string* why) {
+  FieldChecks check(why);
+  check.Stamp(m);
+  CheckPose(m, &check);
+  CheckCamera(m.camera, &check);
+  const double up = std::sqrt(m.up[0] * m.up[0] + m.up[1] * m.up[1] + m.up[2] * m.up[2]);
+  check
+      .That(std::abs(up - 1) <= 1e-3, "up is not a unit vector")  // false for NaN
+      .That(m.everywhere == 0 || m.everywhere == 1, "everywhere is neither 0 nor 1")
+      .That(m.attempt >= 0 && m.attempt < kMaxSequence, "attempt is out of range")
+      .Finite("near_position", m.near_position)
+      .Finite("near_radius", m.near_radius)
+      .Finite("height_low", m.height_low)
+      .Finite("height_high", m.height_high)
+      .Finite("yaw", m.yaw)
+      .Finite("yaw_tolerance", m.yaw_tolerance)
+      .Finite("hypothesis_position", m.hypothesis_position)
+      .That(std::int64_t{m.camera.width} * m.camera.height == m.surface_size,
+            "surface_size is not camera.width * camera.height");
+  for (const std::vector<double>& q : m.hypothesis_orientation)
+    CheckUnit("hypothesis_orientation", q, &check);
+  return check.ok();
+}
+
+bool Validate(const places_t& m, std::string* why) {
+  FieldChecks check(why);
+  check.Stamp(m)
+      .That(m.query_seq >= 0, "query_seq is negative")
+      .Finite("position", m.position)
+      .Finite("significance", m.significance.data(), m.significance.size())
+      .Finite("likeness", m.likeness.data(), m.likeness.size());
+  for (const std::vector<double>& q : m.orientation) CheckUnit("orientation", q, &check);
+  for (const std::int32_t n : m.n_points) check.That(n >= 0, "n_points is negative");
+  return check.ok();
 }
 
 bool Validate(const replay_control_t& m, std::string* why) {

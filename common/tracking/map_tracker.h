@@ -12,6 +12,9 @@
 
 namespace evit {
 
+struct PlaceQuery;
+struct PlaceCandidate;
+
 /// Tracks a body in a semi-dense map, keyframe by keyframe. Knows nothing of where keyframes and map points
 /// come from: before each keyframe it says which view of the map it needs.
 class MapTracker {
@@ -36,6 +39,12 @@ class MapTracker {
                           const std::vector<Eigen::Vector3f>& points) = 0;
 
   virtual TrackerOutput Process(const KeyframeInput& keyframe) = 0;
+
+  /// What a tracker without a pose asks the map (common/localization): null where it asks nothing, as most
+  /// do.
+  virtual const PlaceQuery* PlaceQuestion() const { return nullptr; }
+  /// The answer.
+  virtual void AddPlaces(const std::vector<PlaceCandidate>& /*places*/) {}
 
   /// Overload: use only so large a share of the configured points (0..1], and stop a solve after `seconds`
   /// with the best state so far (0: never). Neither is reproducible: for real time only.

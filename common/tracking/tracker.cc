@@ -36,6 +36,7 @@ void Tracker::Start(const SE3& T_map_body) {
 }
 
 void Tracker::Start(const BodyState& state) {
+  state_time_ = 0;  // whatever was before: the next keyframe does not follow it
   StartBootstrapping(state, TrackerMode::kBootstrapping, "continuing from a checkpoint");
 }
 

@@ -32,6 +32,9 @@ int Main(int argc, char** argv) {
            "Points move onto the line through their neighbours within this, m; 0: as read")
       .Range(0.0, 0.2)
       .ShowDefault();
+  bool places = false;
+  line.AddFlag("--places", &places,
+               "Make ready to say where in the map a keyframe was seen now, and not at the first question");
   evit::AddServiceOptions(&line, &options, false);
   if (const auto code = line.Parse(argc, argv)) return *code;
   if (path.empty() && photometric_path.empty()) return line.Missing("--map or --photometric-map");
@@ -53,6 +56,7 @@ int Main(int argc, char** argv) {
   evit::MapServer service(bus.get(), evit::Channels(options.prefix), evit::MapIndex(std::move(loaded.map)),
                           description);
   if (photometric) service.ServeViews(*photometric);
+  if (places) service.PreparePlaces();
   photometric.reset();
   return evit::RunService(&service, bus.get());
 }

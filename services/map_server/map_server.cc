@@ -22,7 +22,8 @@ MapServer::MapServer(Bus* bus, const Channels& channels, MapIndex index, const s
       index_(std::move(index)),
       status_(bus, channels, "map_server", NewEpoch()),
       queries_(&status_, "MAP_QUERY"),
-      dropped_(&status_.Counter("MAP_QUERY.dropped")) {
+      dropped_(&status_.Counter("MAP_QUERY.dropped")),
+      places_(bus, channels, &status_, &index_) {
   bus_->Subscribe(channels_.map_query, [this](const std::string&, const std::uint8_t* data,
                                               std::size_t size) { OnQuery(data, size); });
   status_.Counter("map.points") = static_cast<std::int64_t>(index_.map().points.size());
@@ -49,6 +50,7 @@ void MapServer::OnQuery(const std::uint8_t* data, std::size_t size) {
 void MapServer::Tick() {
   for (; !queue_.empty(); queue_.pop_front()) Answer(queue_.front());
   if (views_) views_->Tick();
+  places_.Tick();
   status_.Tick();
 }
 

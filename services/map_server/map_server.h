@@ -13,12 +13,13 @@
 #include "common/service/sequence_counter.h"
 #include "common/service/status_reporter.h"
 #include "evit/map_query_t.hpp"
+#include "services/map_server/place_server.h"
 #include "services/map_server/view_server.h"
 
 namespace evit {
 
-/// MAP_QUERY in, MAP_POINTS out. Keeps no state but the map: an answer depends on the query alone, so it can
-/// be restarted at any moment, and the same query gets the same points.
+/// MAP_QUERY in, MAP_POINTS out; PLACE_QUERY in, PLACES out. Keeps no state but the map: an answer depends on
+/// the query alone, so it can be restarted at any moment, and the same query gets the same points.
 class MapServer : public Service {
  public:
   /// `bus` must outlive this. `description`: what STATUS says of the map.
@@ -26,6 +27,9 @@ class MapServer : public Service {
 
   /// Draws views of this map too: VIEW_QUERY in, MAP_VIEW out.
   void ServeViews(const PhotometricMap& map) { views_.emplace(bus_, channels_, &status_, map); }
+
+  /// Makes ready for PLACE_QUERY now, and not when the first one comes.
+  void PreparePlaces() { places_.Prepare(); }
 
   /// Answers what has come in since the last call, in order; of a flood the newest queries only.
   void Tick() override;
@@ -45,6 +49,7 @@ class MapServer : public Service {
   std::int64_t seq_ = 0;
   std::vector<std::uint8_t> buffer_;
   std::optional<ViewServer> views_;
+  PlaceServer places_;
 };
 
 }  // namespace evit

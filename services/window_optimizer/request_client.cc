@@ -52,7 +52,7 @@ bool RequestClient<Request>::OnAnswer(const std::uint8_t* data, std::size_t size
   }
   answered_ = true;
   answer_ = std::move(answer);
-  status_->AddTiming("map_answer", Milliseconds(now - first_asked_));
+  status_->AddTiming(Request::kTiming, Milliseconds(now - first_asked_));
   return true;
 }
 
@@ -68,5 +68,6 @@ bool RequestClient<Request>::GivenUp(Clock::time_point now) const {
 
 template class RequestClient<MapPointsRequest>;
 template class RequestClient<MapViewRequest>;
+template class RequestClient<PlacesRequest>;
 
 }  // namespace evit

@@ -12,6 +12,8 @@
 #include "evit/map_points_t.hpp"
 #include "evit/map_query_t.hpp"
 #include "evit/map_view_t.hpp"
+#include "evit/place_query_t.hpp"
+#include "evit/places_t.hpp"
 #include "evit/view_query_t.hpp"
 
 namespace evit {
@@ -21,6 +23,7 @@ struct MapPointsRequest {
   using Query = map_query_t;
   using Answer = map_points_t;
   static constexpr char kQueryName[] = "MAP_QUERY", kAnswerName[] = "MAP_POINTS";
+  static constexpr char kTiming[] = "map_answer";
   static const std::string& QueryChannel(const Channels& channels) { return channels.map_query; }
   static bool Fits(const Query& /*query*/, const Answer& /*answer*/) { return true; }
 };
@@ -30,14 +33,25 @@ struct MapViewRequest {
   using Query = view_query_t;
   using Answer = map_view_t;
   static constexpr char kQueryName[] = "VIEW_QUERY", kAnswerName[] = "MAP_VIEW";
+  static constexpr char kTiming[] = "map_answer";
   static const std::string& QueryChannel(const Channels& channels) { return channels.view_query; }
   static bool Fits(const Query& query, const Answer& answer) {
     return answer.width == query.camera.width && answer.height == query.camera.height;
   }
 };
 
+/// Where in the map a keyframe may have been seen from.
+struct PlacesRequest {
+  using Query = place_query_t;
+  using Answer = places_t;
+  static constexpr char kQueryName[] = "PLACE_QUERY", kAnswerName[] = "PLACES";
+  static constexpr char kTiming[] = "place_answer";
+  static const std::string& QueryChannel(const Channels& channels) { return channels.place_query; }
+  static bool Fits(const Query& query, const Answer& answer) { return answer.n >= query.n; }
+};
+
 /// Asks map_server one question at a time, asks again while no answer comes, and knows when to continue
-/// without one. Instantiated for MapPointsRequest and MapViewRequest.
+/// without one. Instantiated for the three above.
 ///
 /// Counts QUERY.sent_again, ANSWER.received and ANSWER.invalid in STATUS, by the names of the request.
 template <typename Request>
@@ -86,5 +100,6 @@ class RequestClient {
 
 extern template class RequestClient<MapPointsRequest>;
 extern template class RequestClient<MapViewRequest>;
+extern template class RequestClient<PlacesRequest>;
 
 }  // namespace evit

@@ -17,6 +17,13 @@ namespace {
 constexpr RequestClient<MapPointsRequest>::Patience kPatience{std::chrono::milliseconds(20),
                                                               std::chrono::milliseconds(60)};
 
+std::unique_ptr<MapTracker> TrackerFor(const WindowOptimizer::Settings& settings) {
+  std::unique_ptr<MapTracker> tracker = MakeTracker(settings.rig, settings.tracker, settings.T_map_body);
+  if (!settings.locate) return tracker;
+  return std::make_unique<LocatingTracker>(std::move(tracker), settings.rig, settings.tracker,
+                                           *settings.locate);
+}
+
 }  // namespace
 
 WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Settings& settings)
@@ -28,14 +35,15 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
       imu_rate_pose_(settings.rig.gravity),
       hints_(&status_),
       map_(bus, channels, &status_, kPatience, Clock::now()),
+      places_(bus, channels, &status_, settings.rig, Clock::now()),
       load_(&status_),
       restart_(settings.lossless ? "" : settings.checkpoint),
       publisher_(bus, channels, &status_),
-      worker_(MakeTracker(settings.rig, settings.tracker, settings.T_map_body),
-              settings.lossless ? TrackerWorker::Threading::kCallersThread
-                                : TrackerWorker::Threading::kOwnThread) {
+      worker_(TrackerFor(settings), settings.lossless ? TrackerWorker::Threading::kCallersThread
+                                                      : TrackerWorker::Threading::kOwnThread) {
   Subscribe(bus, channels.keyframe, this, &WindowOptimizer::OnKeyframe);
   Subscribe(bus, channels.map_points, this, &WindowOptimizer::OnMapPoints);
+  Subscribe(bus, channels.places, this, &WindowOptimizer::OnPlaces);
   Subscribe(bus, channels.imu, this, &WindowOptimizer::OnImu);
   Subscribe(bus, channels.pose_hint, this, &WindowOptimizer::OnPoseHint);
   status_.SetState("waiting", "waiting for map_server and for keyframes");
@@ -62,6 +70,12 @@ void WindowOptimizer::OnKeyframe(const std::uint8_t* data, std::size_t size) {
 void WindowOptimizer::OnMapPoints(const std::uint8_t* data, std::size_t size) {
   if (!map_.OnAnswer(data, size, Clock::now())) return;
   UsePoints();
+  ProcessQueue();
+}
+
+void WindowOptimizer::OnPlaces(const std::uint8_t* data, std::size_t size) {
+  if (!places_.OnAnswer(data, size, Clock::now())) return;
+  if (worker_.at_rest() != nullptr) places_.Serve(worker_.at_rest(), Clock::now());
   ProcessQueue();
 }
 
@@ -93,6 +107,7 @@ void WindowOptimizer::ProcessQueue() {
 }
 
 bool WindowOptimizer::ReadyForNext() const {
+  if (settings_.lossless && places_.waiting()) return false;
   if (map_.answered()) return true;
   // Without any answer yet there are no points at all: waiting is the only sensible thing.
   return !settings_.lossless && publisher_.has_answered() && map_.GivenUp(Clock::now());
@@ -136,6 +151,7 @@ bool WindowOptimizer::FinishWork(TrackerWorker::Wait wait) {
   if (!asked_ahead_ || !tracking) AskForPoints(worker_.at_rest()->NextQuery());
   UsePoints();
   UseHint();
+  places_.Serve(worker_.at_rest(), Clock::now());
   return true;
 }
 
@@ -219,7 +235,8 @@ void WindowOptimizer::StartFromCheckpoint() {
   BodyState initial;
   initial.T_map_body = settings_.T_map_body;
   const std::optional<BodyState> predicted = restart_.PredictedAt(queue_.front().message.utime);
-  worker_.at_rest()->Start(predicted.value_or(initial));
+  const bool searches = settings_.locate && settings_.locate->from_nothing;
+  if (predicted || !searches) worker_.at_rest()->Start(predicted.value_or(initial));
   ++status_.Counter(predicted ? "checkpoint.used" : "checkpoint.stale");
   restart_.Done();
   AskForPoints(worker_.at_rest()->NextQuery());
@@ -227,6 +244,7 @@ void WindowOptimizer::StartFromCheckpoint() {
 
 void WindowOptimizer::Tick() {
   map_.Tick(Clock::now());
+  places_.Tick(Clock::now());
   if (restart_.collecting()) CatchUp();
   ProcessQueue();
   if (map_.NobodyAnswers(Clock::now())) {

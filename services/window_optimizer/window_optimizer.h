@@ -3,11 +3,13 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
+#include "common/localization/locating_tracker.h"
 #include "common/service/runner.h"
 #include "common/service/status_reporter.h"
 #include "common/tracking/map_tracker.h"
@@ -16,6 +18,7 @@
 #include "services/window_optimizer/keyframe_inbox.h"
 #include "services/window_optimizer/keyframe_queue.h"
 #include "services/window_optimizer/load_limiter.h"
+#include "services/window_optimizer/place_client.h"
 #include "services/window_optimizer/pose_hint_inbox.h"
 #include "services/window_optimizer/request_client.h"
 #include "services/window_optimizer/restart_coordinator.h"
@@ -40,7 +43,8 @@ class WindowOptimizer : public Service {
     TrackerOptions tracker;
     SE3 T_map_body;  // of the body at the first keyframe
     bool lossless = false;
-    std::string checkpoint;  // file; real time only; empty: none
+    std::string checkpoint;                          // file; real time only; empty: none
+    std::optional<LocatingTracker::Options> locate;  // finds the place itself; empty: never
   };
   /// `bus` must outlive this.
   WindowOptimizer(Bus* bus, const Channels& channels, const Settings& settings);
@@ -57,6 +61,7 @@ class WindowOptimizer : public Service {
   void OnKeyframe(const std::uint8_t* data, std::size_t size);
   void OnMapPoints(const std::uint8_t* data, std::size_t size);
   void OnImu(const std::uint8_t* data, std::size_t size);
+  void OnPlaces(const std::uint8_t* data, std::size_t size);
   void OnPoseHint(const std::uint8_t* data, std::size_t size);
 
   void ProcessQueue();
@@ -82,6 +87,7 @@ class WindowOptimizer : public Service {
   ImuRatePose imu_rate_pose_;  // real time only
   PoseHintInbox hints_;
   RequestClient<MapPointsRequest> map_;
+  PlaceClient places_;
   LoadLimiter load_;  // real time only
   RestartCoordinator restart_;
   ResultPublisher publisher_;

@@ -149,6 +149,52 @@ inline map_view_t Sample<map_view_t>(int n) {
 }
 
 template <>
+inline place_query_t Sample<place_query_t>(int n) {
+  place_query_t m{};
+  Stamp(&m);
+  SetPose(m.position, m.orientation);
+  m.camera.model = "plumb_bob";
+  m.camera.width = 12;
+  m.camera.height = 10;
+  m.camera.fx = m.camera.fy = 8;
+  m.camera.cx = 5.5;
+  m.camera.cy = 4.5;
+  m.up[2] = 1;
+  m.everywhere = 1;
+  m.attempt = 3;
+  m.near_radius = -1;
+  m.height_low = 0.5;
+  m.height_high = 2;
+  m.yaw = 1;
+  m.yaw_tolerance = 0.25;
+  m.n = n;
+  for (int i = 0; i < n; ++i) {
+    m.hypothesis_position.push_back({1.0 * i, 2.0, 3.0});
+    m.hypothesis_orientation.push_back({0, 0, 0.6, 0.8});
+  }
+  m.surface_size = m.camera.width * m.camera.height;
+  for (int i = 0; i < m.surface_size; ++i) m.surface.push_back(static_cast<std::uint8_t>(2 * i));
+  return m;
+}
+
+template <>
+inline places_t Sample<places_t>(int n) {
+  places_t m{};
+  Stamp(&m);
+  m.query_seq = 4;
+  m.query_epoch = 99;
+  m.n = n;
+  for (int i = 0; i < n; ++i) {
+    m.position.push_back({1.0 * i, 2.0, 3.0});
+    m.orientation.push_back({0, 0, 0.6, 0.8});
+    m.significance.push_back(8.5 - i);
+    m.likeness.push_back(20.25);
+    m.n_points.push_back(900);
+  }
+  return m;
+}
+
+template <>
 inline replay_control_t Sample<replay_control_t>(int /*n*/) {
   replay_control_t m{};
   Stamp(&m);

@@ -7,6 +7,7 @@
 #include "common/geometry/pose_text.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
+#include "tools/evit/place_options.h"
 #include "tools/run/run.h"
 
 namespace evit::commands {
@@ -27,11 +28,13 @@ void AddRunCommand(CLI::App* app) {
   run->add_option("--rig", o->job.rig, "Calibration, e.g. config/vector/rig.textproto")->required();
   run->add_option("--config", o->job.config,
                   "Tracker settings, e.g. config/evt.textproto (default: EVIT's, see evit config show)");
-  auto* pose =
-      run->add_option("--initial-pose", o->pose, "Body in the map at the start: \"x y z qx qy qz qw\"");
+  auto* pose = run->add_option(
+      "--initial-pose", o->pose,
+      "Body in the map at the start: \"x y z qx qy qz qw\"; without a pose the place is looked for");
   auto* from = run->add_option("--initial-from", o->from,
                                "Take the pose from this ground truth (TUM), and score against it");
   pose->excludes(from);
+  AddPlaceOptions(run, &o->job.place);
   run->add_option("--truth", o->job.truth, "Truth (TUM) to score against");
   run->add_option("--out", o->job.out, "Folder for the results")->required();
   auto* realtime = run->add_flag("--realtime", o->realtime,
@@ -57,14 +60,14 @@ void AddRunCommand(CLI::App* app) {
       "Exit code: 0 tracked to the end, 1 could not run, 2 LOST or never tracking, 130 interrupted.");
   run->callback([o] {
     run::RunJob& job = o->job;
-    if (o->pose.empty() && o->from.empty())
-      throw std::runtime_error("--initial-pose or --initial-from is required");
     if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
     job.initial_from = o->from;
     if (job.truth.empty()) job.truth = o->from;
     if (!o->seconds.empty()) job.play.seconds = ParseSeconds(o->seconds);
     job.play.lossless = !o->realtime;
     if (job.play.lossless && job.play.loops > 1) throw std::runtime_error("--loops needs --realtime");
+    if (job.play.loops > 1 && !job.initial_pose && job.initial_from.empty())
+      throw std::runtime_error("--loops needs --initial-pose or --initial-from: each loop starts there");
     job.command = CommandLineOfThis();
     const int code = run::Run(job);
     if (code != 0) throw CLI::RuntimeError(code);

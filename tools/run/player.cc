@@ -79,12 +79,12 @@ void Player::PlayAgain() {
   parts_.recorder->StartOver();
   const Clock::time_point begin = Clock::now();
   while (SecondsSince(begin) < 5 && (recorder.Finished() || recorder.progress() >= 1)) {
-    parts_.remote->HintPose(inputs_.start);
+    if (inputs_.start) parts_.remote->HintPose(*inputs_.start);
     parts_.bus->Poll(50);
     // The first order may have been lost.
     if (SecondsSince(begin) > 1 && recorder.progress() >= 1) parts_.remote->Rewind();
   }
-  parts_.remote->HintPose(inputs_.start);
+  if (inputs_.start) parts_.remote->HintPose(*inputs_.start);
 }
 
 void Player::PrintLoop(int loop) const {

@@ -85,7 +85,7 @@ TEST_F(RunFilesTest, SpanEventsStartAndTruth) {
   EXPECT_EQ(inputs.end, kStart + 1'000'000);
   EXPECT_EQ(inputs.n_events, 101 * 30);
   EXPECT_EQ(inputs.truth.size(), 101U);
-  EXPECT_TRUE(inputs.start.p.isApprox(At(0).p));
+  EXPECT_TRUE(inputs.start->p.isApprox(At(0).p));
   EXPECT_TRUE(std::filesystem::is_directory(job_.out));
 }
 
@@ -96,7 +96,7 @@ TEST_F(RunFilesTest, PartOfTheLogBeginsWhereTheTruthIsThen) {
   EXPECT_EQ(inputs.end, kStart + 600'000);
   EXPECT_EQ(inputs.n_events, 41 * 30);
   EXPECT_EQ(inputs.truth.size(), 41U);
-  EXPECT_TRUE(inputs.start.p.isApprox(At(20).p));
+  EXPECT_TRUE(inputs.start->p.isApprox(At(20).p));
 }
 
 TEST_F(RunFilesTest, LogsStampedByTheHostCountInSensorTime) {
@@ -111,7 +111,7 @@ TEST_F(RunFilesTest, GivenPoseNeedsNoTruth) {
   job_.initial_pose = At(7);
   job_.initial_from = job_.truth = "";
   const RunInputs inputs = PrepareRun(job_);
-  EXPECT_TRUE(inputs.start.p.isApprox(At(7).p));
+  EXPECT_TRUE(inputs.start->p.isApprox(At(7).p));
   EXPECT_TRUE(inputs.truth.empty());
 }
 

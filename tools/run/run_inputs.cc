@@ -14,6 +14,7 @@
 #include "common/config/settings_file.h"
 #include "common/config/settings_text.h"
 #include "common/files/decimal_time.h"
+#include "common/localization/prior_text.h"
 #include "common/map/map_file.h"
 #include "common/map/photometric_map.h"
 
@@ -78,8 +79,9 @@ void ReadSpan(const RunJob& job, RunInputs* inputs) {
   }
 }
 
-SE3 StartPose(const RunJob& job, Utime begin) {
-  if (job.initial_pose) return *job.initial_pose;
+std::optional<SE3> StartPose(const RunJob& job, Utime begin) {
+  if (job.initial_pose) return job.initial_pose;
+  if (job.initial_from.empty()) return std::nullopt;
   const Trajectory truth = ReadTum(job.initial_from);
   // The truth may begin a little later than the log.
   SE3 pose;
@@ -114,6 +116,11 @@ RunInputs PrepareRun(const RunJob& job) {
   if (!job.photometric_map.empty()) LoadPhotometricMap(job.photometric_map);
   ReadSpan(job, &inputs);
   inputs.start = StartPose(job, inputs.begin);
+  ParsePlacePrior(job.place.near, job.place.height, job.place.yaw);
+  if (!inputs.start && options.method != PipelineOptions::Method::kEvit) {
+    throw std::runtime_error(settings +
+                             ": methods EVT and EVPT need a start: give --initial-pose or --initial-from");
+  }
   if (!job.truth.empty()) {
     for (const StampedPose& s : ReadTum(job.truth)) {
       if (s.t >= inputs.begin && s.t <= inputs.end) inputs.truth.push_back(s);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "common/evaluation/trajectory.h"
@@ -13,7 +14,7 @@ struct RunInputs {
   Utime begin = 0, end = 0;   // sensor time of the part that will be played
   std::int64_t n_events = 0;  // in that part
   std::string settings;       // every value in force, a settings file
-  SE3 start;                  // T_map_body at `begin`
+  std::optional<SE3> start;   // T_map_body at `begin`; none: to be found
   Trajectory truth;           // of that part; empty: none
 };
 

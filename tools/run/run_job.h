@@ -16,6 +16,11 @@ struct Playback {
   std::optional<std::pair<double, double>> seconds;  // part of the log
 };
 
+/// What is known of the place, where there is no start pose: texts of ParsePlacePrior().
+struct PlaceTexts {
+  std::string near, height, yaw;
+};
+
 /// One run of the four services on a recorded log.
 struct RunJob {
   std::string log, map, rig, config;  // files
@@ -23,7 +28,9 @@ struct RunJob {
   std::string out;                    // folder for the results
   std::string truth;                  // TUM file to score against; empty: none
   std::optional<SE3> initial_pose;    // of the body in the map
-  std::string initial_from;           // else: TUM file to take it from, at the start of the log
+  std::string
+      initial_from;  // else: TUM file to take it from, at the start of the log; neither: it is looked for
+  PlaceTexts place;
   Playback play;
   std::string lcm_url, prefix;
   std::string command;  // for the report

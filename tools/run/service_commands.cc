@@ -26,13 +26,22 @@ void RemoveRestartFiles(const RunJob& job) {
 }
 
 std::vector<procman::ProcmanCommand> ServiceCommands(const RunJob& job, const std::string& url,
-                                                     const SE3& start) {
+                                                     const std::optional<SE3>& start) {
   RemoveRestartFiles(job);  // of an earlier run
   std::vector<std::string> map_server{"map_server"};
   if (!job.map.empty()) map_server.insert(map_server.end(), {"--map", job.map});
   if (!job.photometric_map.empty())
     map_server.insert(map_server.end(), {"--photometric-map", job.photometric_map});
-  std::vector<std::string> optimizer{"window_optimizer", "--rig", job.rig, "--initial-pose", PoseText(start)};
+  std::vector<std::string> optimizer{"window_optimizer", "--rig", job.rig};
+  if (start) {
+    optimizer.insert(optimizer.end(), {"--initial-pose", PoseText(*start)});
+  } else {
+    map_server.emplace_back("--places");
+  }
+  const std::pair<const char*, const std::string&> known[] = {
+      {"--near", job.place.near}, {"--height", job.place.height}, {"--yaw", job.place.yaw}};
+  for (const auto& [option, text] : known)
+    if (!text.empty()) optimizer.insert(optimizer.end(), {option, text});
   std::vector<std::string> builder{"frame_builder", "--rig", job.rig};
   if (!job.config.empty()) {
     for (auto* words : {&optimizer, &builder}) words->insert(words->end(), {"--config", job.config});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,9 +10,10 @@
 namespace evit::run {
 
 /// The command lines of the four services for a run, in the order they are started: each before those that
-/// send to it. `url`: of the bus. `start`: T_map_body. Removes what an earlier run left for restarts.
+/// send to it. `url`: of the bus. `start`: T_map_body; none: to be found. Removes what an earlier run left
+/// for restarts.
 std::vector<procman::ProcmanCommand> ServiceCommands(const RunJob& job, const std::string& url,
-                                                     const SE3& start);
+                                                     const std::optional<SE3>& start);
 
 /// Removes the files that services keep for restarts within a run.
 void RemoveRestartFiles(const RunJob& job);

@@ -1,0 +1,148 @@
+#include "common/localization/place_finder.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "common/localization/in_parallel.h"
+#include "common/localization/yaw_search.h"
+#include "common/tracking/alignment_significance.h"
+#include "common/tracking/start_search.h"
+
+namespace evit {
+namespace {
+
+constexpr StartRange kFromMatch{0.15, 0.09, 5};  // half the grid's spacing and a yaw bin, and the tilt
+constexpr StartRange kAround{0.2, 0.1, 4};       // a repeated pattern may have been met one repeat away
+constexpr StartRange kPredicted{0.05, 0.03, 4};  // 50 ms on, by the IMU
+constexpr int kIterations = 8;                   // from a match: enough to tell which are worth more
+constexpr int kFewestPlaces = 25;                // of the panorama, with an edge: fewer fit anywhere
+constexpr std::size_t kSearched = 6;             // of the best matches, around which to search
+constexpr double kSamePlace = 0.05, kSameAngle = 0.05;  // m, rad: nearer poses are one
+
+bool Same(const SE3& a, const SE3& b) {
+  return (a.p - b.p).norm() < kSamePlace && AngularDistance(a.q, b.q) < kSameAngle;
+}
+
+// The most significant first; of the same pose the most significant only.
+void SortOut(std::vector<PlaceCandidate>* candidates, std::size_t count) {
+  std::stable_sort(
+      candidates->begin(), candidates->end(),
+      [](const PlaceCandidate& a, const PlaceCandidate& b) { return a.significance > b.significance; });
+  std::vector<PlaceCandidate> kept;
+  for (const PlaceCandidate& c : *candidates) {
+    if (kept.size() == count) break;
+    if (std::none_of(kept.begin(), kept.end(),
+                     [&](const PlaceCandidate& k) { return Same(k.T_map_body, c.T_map_body); })) {
+      kept.push_back(c);
+    }
+  }
+  *candidates = std::move(kept);
+}
+
+}  // namespace
+
+PlaceFinder::PlaceFinder(const MapIndex& map, const PlaceIndex& index, const Rig& rig,
+                         const PointOptions& points, const WindowOptions& window,
+                         const PlaceFinderOptions& options)
+    : map_(map),
+      index_(index),
+      rig_(rig),
+      points_(points),
+      alignment_(MakeAlignmentSettings(rig, window)),
+      options_(options) {}
+
+std::vector<PlaceCandidate> PlaceFinder::Answer(const PlaceQuery& query) const {
+  const SurfaceField field(query.surface, kFromMatch.levels);
+  std::vector<PlaceCandidate> answer = Refined(query, field), others;
+  if (query.everywhere) {
+    others = Everywhere(query, field);
+  } else if (!answer.empty()) {
+    const PlaceCandidate& best = *std::max_element(
+        answer.begin(), answer.end(),
+        [](const PlaceCandidate& a, const PlaceCandidate& b) { return a.significance < b.significance; });
+    others.push_back(Searched(field, best.T_map_body, kAround, query.number));
+  }
+  for (const PlaceCandidate& other : others) {
+    const bool known = std::any_of(answer.begin(), answer.end(), [&](const PlaceCandidate& a) {
+      return Same(a.T_map_body, other.T_map_body);
+    });
+    if (!known) answer.push_back(other);
+  }
+  return answer;
+}
+
+std::vector<PlaceCandidate> PlaceFinder::Refined(const PlaceQuery& query, const SurfaceField& field) const {
+  std::vector<PlaceCandidate> refined(query.hypotheses.size());
+  InParallel(options_.threads, refined.size(), [&](std::size_t k) {
+    const AlignmentPoints points = PointsAt(query.hypotheses[k]);
+    const SE3 pose = LocalizeBest(alignment_, field, points, query.hypotheses[k], kPredicted).T_map_body;
+    refined[k] = {pose, AlignmentSignificance(alignment_, field, points, pose), 0,
+                  static_cast<int>(points.size())};
+  });
+  return refined;
+}
+
+std::vector<PlaceCandidate> PlaceFinder::Everywhere(const PlaceQuery& query, const SurfaceField& field) const {
+  const auto R_up_body = Eigen::Quaterniond::FromTwoVectors(query.up_body, Eigen::Vector3d::UnitZ());
+  const EventPanorama panorama(query.surface, rig_.camera, R_up_body * rig_.T_body_camera.q);
+  if (panorama.occupied() < kFewestPlaces) return {};
+  const auto pose_of = [&](const Eigen::Vector3f& at, double yaw) {
+    SE3 pose;
+    pose.q = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * R_up_body;
+    pose.p = at.cast<double>() - pose.q * rig_.T_body_camera.p;
+    return pose;
+  };
+  std::function<bool(const Eigen::Vector3f&, double)> allowed;
+  if (!query.prior.open()) {
+    allowed = [&](const Eigen::Vector3f& at, double yaw) {
+      return query.prior.Allows(pose_of(at, yaw), index_.spacing(), panorama::kBin);
+    };
+  }
+  const std::vector<PlaceMatch> matches =
+      BestMatches(index_, panorama, options_.matches, allowed, options_.threads);
+  std::vector<PlaceCandidate> aligned(matches.size());
+  InParallel(options_.threads, matches.size(), [&](std::size_t k) {
+    aligned[k] = Aligned(field, pose_of(matches[k].at, matches[k].yaw), kFromMatch);
+    aligned[k].likeness = matches[k].score;
+  });
+  SortOut(&aligned, options_.candidates);
+  std::vector<PlaceCandidate> searched(std::min(kSearched, aligned.size()));
+  InParallel(options_.threads, searched.size(), [&](std::size_t k) {
+    searched[k] = Searched(field, aligned[k].T_map_body, kAround, query.number);
+    searched[k].likeness = aligned[k].likeness;
+  });
+  aligned.insert(aligned.end(), searched.begin(), searched.end());
+  SortOut(&aligned, options_.candidates);
+  return aligned;
+}
+
+PlaceCandidate PlaceFinder::Aligned(const SurfaceField& field, const SE3& T_map_body,
+                                    const StartRange& range) const {
+  const AlignmentPoints points = PointsAt(T_map_body);
+  const SE3 pose = Localize(alignment_, field, points, T_map_body, range, kIterations).T_map_body;
+  return {pose, AlignmentSignificance(alignment_, field, points, pose), 0, static_cast<int>(points.size())};
+}
+
+PlaceCandidate PlaceFinder::Searched(const SurfaceField& field, const SE3& T_map_body,
+                                     const StartRange& range, std::int64_t number) const {
+  const AlignmentPoints points = PointsAt(T_map_body);
+  const SE3 pose = SearchStart(alignment_, field, points, T_map_body, range, number).T_map_body;
+  return {pose, AlignmentSignificance(alignment_, field, points, pose), 0, static_cast<int>(points.size())};
+}
+
+AlignmentPoints PlaceFinder::PointsAt(const SE3& T_map_body) const {
+  VisibilityQuery query;
+  query.T_map_camera = T_map_body * rig_.T_body_camera;
+  query.camera = rig_.camera;
+  query.margin_px = points_.margin_px;
+  query.min_depth = points_.min_depth_m;
+  query.max_depth = points_.max_depth_m;
+  query.occlusion = points_.occlusion;
+  query.max_points = static_cast<int>(options_.points);
+  query.seed = static_cast<std::uint64_t>(points_.seed);
+  std::vector<Eigen::Vector3f> points;
+  for (const std::int32_t id : map_.Query(query).ids) points.push_back(map_.map().points[id]);
+  return {points};
+}
+
+}  // namespace evit

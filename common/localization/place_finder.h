@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "common/geometry/rig.h"
+#include "common/localization/place_index.h"
+#include "common/localization/place_query.h"
+#include "common/map/map_index.h"
+#include "common/tracking/localizer.h"
+#include "common/tracking/tracker_options.h"
+
+namespace evit {
+
+struct PlaceFinderOptions {
+  std::size_t matches = 48;     // places whose image is compared, after their panoramas
+  std::size_t candidates = 8;   // in the answer to a search everywhere, at most
+  std::size_t points = 900;     // of the map, to compare an image by
+  int threads = 2;
+};
+
+/// Where in a map a keyframe may have been seen: all places and yaws by their panoramas (PlaceIndex), the best
+/// of them by aligning the map with the image (Localize, SearchStart). Keeps no state but the map: the same
+/// query has the same answer, whatever the number of threads.
+class PlaceFinder {
+ public:
+  /// `map` and `index`, of the same map, must outlive this.
+  PlaceFinder(const MapIndex& map, const PlaceIndex& index, const Rig& rig, const PointOptions& points,
+              const WindowOptions& window, const PlaceFinderOptions& options = {});
+
+  /// First the hypotheses, refined, in their order; then what else explains the view: everywhere, or around
+  /// the best of the hypotheses. The others are the most significant first, and no two are one place.
+  std::vector<PlaceCandidate> Answer(const PlaceQuery& query) const;
+
+ private:
+  std::vector<PlaceCandidate> Refined(const PlaceQuery& query, const SurfaceField& field) const;
+  std::vector<PlaceCandidate> Everywhere(const PlaceQuery& query, const SurfaceField& field) const;
+  PlaceCandidate Aligned(const SurfaceField& field, const SE3& T_map_body, const StartRange& range) const;
+  PlaceCandidate Searched(const SurfaceField& field, const SE3& T_map_body, const StartRange& range,
+                          std::int64_t number) const;
+  AlignmentPoints PointsAt(const SE3& T_map_body) const;
+
+  const MapIndex& map_;
+  const PlaceIndex& index_;
+  Rig rig_;
+  PointOptions points_;
+  AlignmentSettings alignment_;
+  PlaceFinderOptions options_;
+};
+
+}  // namespace evit

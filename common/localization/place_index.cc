@@ -1,0 +1,169 @@
+#include "common/localization/place_index.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "common/localization/in_parallel.h"
+#include "common/map/view_projector.h"
+
+namespace evit {
+namespace {
+
+using namespace panorama;  // NOLINT(google-build-using-namespace): this file is about nothing else
+
+constexpr std::size_t kBlock = 256;  // places that a thread takes at a time
+constexpr float kBehind = 1.15F, kBehindM = 0.1F;  // farther by that much than what lies around it: hidden
+
+// Place in the panorama and distance (0: out of range) of each point.
+EVIT_MULTIVERSION void LookAt(const PointArrays& points, const float* at, float near2, float far2,
+                              std::int32_t* places, float* depths) {
+  const float *px = points.x(), *py = points.y(), *pz = points.z();
+  const std::size_t n = points.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const float x = px[k] - at[0], y = py[k] - at[1], z = pz[k] - at[2];
+    const float r2 = x * x + y * y + z * z;
+    places[k] = PlaceOf(x, y, z);
+    depths[k] = r2 < near2 || r2 > far2 ? 0 : std::sqrt(r2);
+  }
+}
+
+// The panorama of one place, with a depth buffer.
+class View {
+ public:
+  View(const std::vector<EdgePoint>& edges, const PlaceIndexOptions& options)
+      : edges_(edges),
+        near2_(static_cast<float>(options.min_depth * options.min_depth)),
+        far2_(static_cast<float>(options.max_depth * options.max_depth)),
+        places_(edges.size()),
+        depths_(edges.size()) {
+    points_.Resize(edges.size());
+    for (std::size_t k = 0; k < edges.size(); ++k) points_.Set(k, edges[k].at);
+  }
+
+  // The edges visible from `at`, each place and direction once, to `visible`.
+  void From(const Eigen::Vector3f& at, std::vector<PlaceIndex::Edge>* visible) {
+    FillDepths(at);
+    FindHorizon();
+    std::array<std::uint8_t, kRows * kColumns> held{};
+    visible->clear();
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+      if (depths_[k] <= 0 || depths_[k] > kBehind * horizon_[places_[k]] + kBehindM) continue;
+      const Eigen::Vector3f d = edges_[k].at - at;
+      const Eigen::Vector3f& along = edges_[k].along;
+      const int direction =
+          along.isZero() ? kAnyDirection
+                         : DirectionBin(LineAt(d.x(), d.y(), d.z(), along.x(), along.y(), along.z()));
+      const auto bit = static_cast<std::uint8_t>(1U << direction);
+      if ((held[places_[k]] & bit) != 0) continue;
+      held[places_[k]] |= bit;
+      visible->push_back({static_cast<std::uint16_t>(direction * kRows + places_[k] / kColumns),
+                          static_cast<std::uint16_t>(places_[k] % kColumns)});
+    }
+    std::sort(visible->begin(), visible->end(), [](const auto& a, const auto& b) {
+      return a.stacked_row != b.stacked_row ? a.stacked_row < b.stacked_row : a.column < b.column;
+    });
+  }
+
+ private:
+  void FillDepths(const Eigen::Vector3f& at) {
+    LookAt(points_, at.data(), near2_, far2_, places_.data(), depths_.data());
+    nearest_.fill(std::numeric_limits<float>::infinity());
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+      if (depths_[k] > 0) nearest_[places_[k]] = std::min(nearest_[places_[k]], depths_[k]);
+    }
+  }
+
+  // A map of edges has no surfaces: a place lies behind something only where nearer edges are on at least
+  // three of four sides of it (as RemoveOccluded has it). The horizon is the third nearest of these sides.
+  void FindHorizon() {
+    for (int row = 0; row < kRows; ++row) {
+      for (int column = 0; column < kColumns; ++column) {
+        std::array<float, 4> sides;
+        sides.fill(std::numeric_limits<float>::infinity());
+        for (int dr = -2; dr <= 2; ++dr) {
+          if (row + dr < 0 || row + dr >= kRows) continue;
+          for (int dc = -2; dc <= 2; ++dc) {
+            if (dr == 0 && dc == 0) continue;
+            // Four sides like a pinwheel, six places each.
+            const int side = dr < 0 && dc <= 0 ? 0 : dc > 0 && dr <= 0 ? 1 : dr > 0 && dc >= 0 ? 2 : 3;
+            const float depth = nearest_[(row + dr) * kColumns + ((column + dc) & (kColumns - 1))];
+            sides[side] = std::min(sides[side], depth);
+          }
+        }
+        std::nth_element(sides.begin(), sides.begin() + 2, sides.end());
+        horizon_[row * kColumns + column] = sides[2];
+      }
+    }
+  }
+
+  const std::vector<EdgePoint>& edges_;
+  float near2_, far2_;
+  PointArrays points_;
+  std::vector<std::int32_t> places_;  // of each edge
+  std::vector<float> depths_;          // m; 0: out of range
+  std::array<float, kRows * kColumns> nearest_, horizon_;
+};
+
+std::vector<Eigen::Vector3f> Grid(const std::vector<EdgePoint>& edges, const PlaceIndexOptions& options,
+                                  double* spacing) {
+  Eigen::Vector3d low = edges.front().at.cast<double>(), high = low;
+  for (const EdgePoint& e : edges) {
+    low = low.cwiseMin(e.at.cast<double>());
+    high = high.cwiseMax(e.at.cast<double>());
+  }
+  low.array() -= options.beyond;
+  high.array() += options.beyond;
+  const Eigen::Vector3d size = high - low;
+  *spacing = std::max(options.spacing, std::cbrt(size.prod() / static_cast<double>(options.max_places)));
+  Eigen::Vector3i n;
+  for (;; *spacing *= 1.02) {
+    for (int a = 0; a < 3; ++a) n[a] = static_cast<int>(std::min(1e6, size[a] / *spacing)) + 1;
+    if (1.0 * n[0] * n[1] * n[2] <= static_cast<double>(options.max_places)) break;
+  }
+  const Eigen::Vector3d first = low + 0.5 * (size - *spacing * (n.array() - 1).matrix().cast<double>());
+  std::vector<Eigen::Vector3f> grid;
+  for (int z = 0; z < n[2]; ++z)
+    for (int y = 0; y < n[1]; ++y)
+      for (int x = 0; x < n[0]; ++x)
+        grid.emplace_back((first + *spacing * Eigen::Vector3d(x, y, z)).cast<float>());
+  return grid;
+}
+
+}  // namespace
+
+PlaceIndex::PlaceIndex(const PointMap& map, const PlaceIndexOptions& options,
+                       const std::function<void(double)>& progress)
+    : spacing_(options.spacing) {
+  if (map.points.empty()) return;
+  const std::vector<EdgePoint> edges = ThinEdges(map, options.edges);
+  const std::vector<Eigen::Vector3f> grid = Grid(edges, options, &spacing_);
+  std::vector<std::vector<Edge>> visible(grid.size());
+  std::mutex reporting;
+  InParallel(options.threads, (grid.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+    View view(edges, options);
+    std::vector<Edge> seen;
+    for (std::size_t k = block * kBlock; k < std::min(grid.size(), (block + 1) * kBlock); ++k) {
+      view.From(grid[k], &seen);
+      if (seen.size() >= static_cast<std::size_t>(options.min_visible)) visible[k] = seen;
+    }
+    const std::lock_guard<std::mutex> lock(reporting);
+    if (progress) progress(static_cast<double>(block * kBlock) / static_cast<double>(grid.size()));
+  });
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    if (visible[k].empty()) continue;
+    const auto begin = static_cast<std::uint32_t>(edges_.size());
+    edges_.insert(edges_.end(), visible[k].begin(), visible[k].end());
+    places_.push_back({grid[k], begin, static_cast<std::uint32_t>(edges_.size())});
+    std::vector<Edge>().swap(visible[k]);
+  }
+  edges_.shrink_to_fit();
+}
+
+std::size_t PlaceIndex::MemoryBytes() const {
+  return places_.capacity() * sizeof(Place) + edges_.capacity() * sizeof(Edge);
+}
+
+}  // namespace evit

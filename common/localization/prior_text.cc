@@ -1,0 +1,50 @@
+#include "common/localization/prior_text.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace evit {
+namespace {
+
+constexpr double kDegree = EIGEN_PI / 180;
+
+// `count` finite numbers, separated by `separator`, and nothing else.
+std::vector<double> Numbers(const std::string& option, const std::string& text, char separator,
+                            std::size_t count, const char* expected) {
+  std::string spaced = text;
+  if (separator != ' ') {
+    for (char& c : spaced) c = c == separator ? ' ' : c;
+  }
+  std::istringstream in(spaced);
+  std::vector<double> numbers;
+  for (double value; in >> value && std::isfinite(value);) numbers.push_back(value);
+  if (numbers.size() != count || !in.eof())
+    throw std::runtime_error(option + " \"" + text + "\": expected \"" + expected + "\"");
+  return numbers;
+}
+
+}  // namespace
+
+PlacePrior ParsePlacePrior(const std::string& near, const std::string& height, const std::string& yaw) {
+  PlacePrior prior;
+  if (!near.empty()) {
+    const std::vector<double> n = Numbers("--near", near, ' ', 4, "x y z radius");
+    if (n[3] <= 0) throw std::runtime_error("--near \"" + near + "\": expected a radius above 0 m");
+    prior.near = {{n[0], n[1], n[2]}, n[3]};
+  }
+  if (!height.empty()) {
+    const std::vector<double> n = Numbers("--height", height, ':', 2, "low:high");
+    if (n[0] >= n[1]) throw std::runtime_error("--height \"" + height + "\": expected low below high, in m");
+    prior.height = {n[0], n[1]};
+  }
+  if (!yaw.empty()) {
+    const std::vector<double> n = Numbers("--yaw", yaw, ':', 2, "degrees:tolerance");
+    if (n[1] <= 0) throw std::runtime_error("--yaw \"" + yaw + "\": expected a tolerance above 0 degrees");
+    prior.heading = {n[0] * kDegree, n[1] * kDegree};
+  }
+  return prior;
+}
+
+}  // namespace evit

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "common/localization/place_query.h"
+
+namespace evit {
+
+/// What is known of the place, as people type it; empty: not known. `near`: "x y z radius" in m; `height`:
+/// "low:high" in m; `yaw`: "degrees:tolerance", of the body's x axis from the map's x towards its y. Throws
+/// std::runtime_error naming the option (--near, --height, --yaw), the text and what was expected.
+PlacePrior ParsePlacePrior(const std::string& near, const std::string& height, const std::string& yaw);
+
+}  // namespace evit
