@@ -38,6 +38,7 @@ void VisitOptions(Options& o, const Visitor& visit) {
   visit("alignment.robust_scale", o.window.robust_scale);
   visit("alignment.min_contrast", o.failure.min_contrast);
   visit("covariance.correlated_share", o.window.correlated_share);
+  visit("covariance.misfit_share", o.window.misfit_share);
   visit("covariance.map_sigma_m", o.window.map_sigma_m);
   visit("covariance.stamp_sigma_us", o.window.stamp_sigma_us);
   visit("evit.motion_model", o.window.motion_model);

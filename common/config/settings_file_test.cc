@@ -65,6 +65,8 @@ TEST_F(SettingsFile, FullCopiesOfEarlierVersionsLoadToTheSameValues) {
     expected.points.per_keyframe = 1500;
     expected.failure.min_contrast = 0.03;
     expected.bootstrap.min_contrast = 0.06;
+    expected.window.correlated_share = 1.8;
+    expected.window.map_sigma_m = 0.0012;
     EXPECT_EQ(SettingsText(earlier.options), SettingsText(expected));
     EXPECT_THAT(earlier.notes, Contains(HasSubstr("window.kernel is now alignment.kernel")));
     EXPECT_THAT(earlier.notes, Contains(HasSubstr("surface.split_polarity has no effect any more")));

@@ -1,29 +1,21 @@
 #include "common/tracking/alignment_significance.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "common/tracking/image_patches.h"
 
 namespace evit {
 namespace {
 
-constexpr int kPatchesAcross = 24;  // 27 pixels of 640: wider than an edge's events, shorter than most edges
-constexpr int kSmallestPatch = 6;   // pixels
 constexpr double kBeside = 10;      // pixels
 constexpr double kRounding = 0.01;  // grey levels: of a field without events, whose values are all the same
 
 class PatchSums {
  public:
-  explicit PatchSums(const Camera& camera)
-      : patch_(std::max(kSmallestPatch, camera.width / kPatchesAcross)),
-        columns_(camera.width / patch_ + 1),
-        sums_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(camera.height / patch_ + 1)) {}
+  explicit PatchSums(const Camera& camera) : patches_(camera), sums_(patches_.size()) {}
 
-  void Add(const Eigen::Vector2d& at, double value) {
-    const int column = static_cast<int>(at.x()) / patch_, row = static_cast<int>(at.y()) / patch_;
-    sums_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-          static_cast<std::size_t>(column)] += value;
-  }
+  void Add(const Eigen::Vector2d& at, double value) { sums_[patches_.At(at)] += value; }
   double Significance() const {
     double sum = 0, squares = 0;
     for (const double s : sums_) sum += s, squares += s * s;
@@ -31,7 +23,7 @@ class PatchSums {
   }
 
  private:
-  int patch_, columns_;  // pixels; patches
+  ImagePatches patches_;
   std::vector<double> sums_;
 };
 

@@ -20,7 +20,7 @@ EventOnlyTracker::EventOnlyTracker(const Rig& rig, const TrackerOptions& options
     : options_(options),
       alignment_(MakeAlignmentSettings(rig, options.window)),
       points_(rig, alignment_, options.points, options.lag_px),
-      uncertainty_(options.window) {
+      uncertainty_(rig.camera, options.window) {
   state_.T_map_body = T_map_body;
 }
 
@@ -82,7 +82,7 @@ TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
     const Matrix6d alignment = AlignmentInformation(alignment_, field, points, fit.T_map_body);
     out.information.topLeftCorner<6, 6>() = alignment;
     out.information.bottomRightCorner<9, 9>().setIdentity();
-    uncertainty_.SetAlignment(alignment);
+    uncertainty_.SetAlignment(alignment, MeasureMisfit(alignment_, field, points, fit.T_map_body));
     out.covariance = uncertainty_.Covariance(out.information, state_.velocity, rate_);
     out.nodes.push_back({keyframe.t, keyframe.seq, state_});
     out.has_pose = true;

@@ -1,6 +1,8 @@
 #include "common/tracking/pose_covariance.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 
 #include "common/tracking/state_matrices.h"
 
@@ -27,14 +29,34 @@ Matrix6d SystematicCovariance(const Matrix6d& alignment, double share, double ma
   return common;
 }
 
+Matrix6d MisfitCovariance(const AlignmentMisfit& misfit, double share, double focal_px) {
+  // Whether an edge lies at one end of its pixels or the other no event tells: up to half a pixel either way,
+  // a quarter in the median.
+  constexpr double kGrid = 0.25;
+  const double variance_px =
+      share * share * std::max(0.0, misfit.offset_px * misfit.offset_px - kGrid * kGrid);
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.diagonal().head<3>().setConstant(variance_px * misfit.metres_per_px * misfit.metres_per_px);
+  covariance.diagonal().tail<3>().setConstant(variance_px / (focal_px * focal_px));
+  return covariance;
+}
+
 Matrix6d TimeOffsetCovariance(const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate, double sigma) {
   Vector6d moved;
   moved << sigma * velocity, sigma * rate;
   return moved * moved.transpose();
 }
 
-void PoseUncertainty::SetAlignment(const Matrix6d& alignment) {
-  systematic_ = SystematicCovariance(alignment, options_.correlated_share, options_.map_sigma_m);
+void PoseUncertainty::SetAlignment(const Matrix6d& alignment, const AlignmentMisfit& misfit) {
+  constexpr int kMisfits = 10;     // keyframes: a quarter to half a second
+  constexpr int kFewPatches = 10;  // of fewer the median means nothing
+  if (misfit.n_patches >= kFewPatches) {
+    n_misfits_ = std::min(n_misfits_ + 1, kMisfits);
+    misfit_.offset_px += (misfit.offset_px - misfit_.offset_px) / n_misfits_;
+    misfit_.metres_per_px += (misfit.metres_per_px - misfit_.metres_per_px) / n_misfits_;
+  }
+  systematic_ = SystematicCovariance(alignment, options_.correlated_share, options_.map_sigma_m) +
+                MisfitCovariance(misfit_, options_.misfit_share, focal_px_);
 }
 
 Matrix6d PoseUncertainty::Covariance(const Matrix15d& information, const Eigen::Vector3d& velocity,

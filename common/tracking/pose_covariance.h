@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/tracking/alignment_misfit.h"
 #include "common/tracking/state.h"
 #include "common/tracking/tracker_options.h"
 
@@ -15,25 +16,35 @@ Matrix6d PoseCovariance(const Matrix15d& information);
 /// at most some centimetres, and a shift of the whole map (m, per axis).
 Matrix6d SystematicCovariance(const Matrix6d& alignment, double share, double map_sigma);
 
+/// A shift of image and map against each other as a whole, of which no keyframe shows anything: a pose takes
+/// it up. What shows are the patches of the map that lie beside their events (AlignmentMisfit), a median of a
+/// quarter pixel of which is the pixel grid's. `share` times the rest as a standard deviation per axis, once
+/// as a shift of the map at its depth, once as a turn of the camera.
+Matrix6d MisfitCovariance(const AlignmentMisfit& misfit, double share, double focal_px);
+
 /// What it does to the pose that events come late by an amount which nobody has measured (pixels' latency,
 /// clocks set by hand): the body has moved on by then. `velocity`: m/s, map frame; `rate`: rad/s, body frame;
 /// `sigma`: s.
 Matrix6d TimeOffsetCovariance(const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate, double sigma);
 
-/// The sum of these three, which the trackers report.
+/// The sum of these four, which the trackers report.
 class PoseUncertainty {
  public:
-  explicit PoseUncertainty(const WindowOptions& options) : options_(options) {}
+  PoseUncertainty(const Camera& camera, const WindowOptions& options)
+      : focal_px_(0.5 * (camera.fx + camera.fy)), options_(options) {}
 
   /// The newest keyframe whose events the map lies on: `alignment` is the information of these alone. Its
-  /// systematic part stays until the next one.
-  void SetAlignment(const Matrix6d& alignment);
+  /// systematic part stays until the next one. The misfit is the mean of the last ten's or so.
+  void SetAlignment(const Matrix6d& alignment, const AlignmentMisfit& misfit);
   /// `information`: inverse covariance of the newest state from all keyframes. Velocity and rate as above.
   Matrix6d Covariance(const Matrix15d& information, const Eigen::Vector3d& velocity,
                       const Eigen::Vector3d& rate) const;
 
  private:
+  double focal_px_;
   WindowOptions options_;
+  AlignmentMisfit misfit_;  // mean
+  int n_misfits_ = 0;       // in it, at most kMisfits
   Matrix6d systematic_ = Matrix6d::Zero();
 };
 

@@ -28,6 +28,36 @@ TEST(PoseCovariance, WhatOneKeyframeLeavesOpenStaysButNotWithoutBound) {
   EXPECT_EQ(SystematicCovariance(alignment, 0, 0.002)(3, 3), 0);
 }
 
+TEST(PoseCovariance, WhatPatchesLieBesideTheirEventsMayBeAShiftOfTheWholeMap) {
+  constexpr double kFocal = 300;
+  const Matrix6d shifted = MisfitCovariance({100, 0.65, 0.004}, 2, kFocal);  // 0.6 pixels beyond the grid's
+  EXPECT_NEAR(std::sqrt(shifted(0, 0)), 2 * 0.6 * 0.004, 1e-6);
+  EXPECT_NEAR(std::sqrt(shifted(5, 5)), 2 * 0.6 / kFocal, 1e-6);
+  EXPECT_EQ(MisfitCovariance({100, 0.2, 0.004}, 2, kFocal).norm(), 0);
+  EXPECT_EQ(MisfitCovariance({100, 0.65, 0.004}, 0, kFocal).norm(), 0);
+}
+
+TEST(PoseCovariance, GrowsWithinASecondWhereTheMapIsWrongAndNotByOneKeyframe) {
+  Camera camera;
+  camera.fx = camera.fy = 300;
+  PoseUncertainty uncertainty(camera, WindowOptions());
+  const Matrix6d alignment = 1e7 * Matrix6d::Identity();
+  const auto sigma = [&] {
+    return std::sqrt(uncertainty.Covariance(1e8 * Matrix15d::Identity(), Eigen::Vector3d::Zero(),
+                                            Eigen::Vector3d::Zero())(0, 0));
+  };
+  for (int k = 0; k < 30; ++k) uncertainty.SetAlignment(alignment, {100, 0.3, 0.004});
+  const double before = sigma();
+  uncertainty.SetAlignment(alignment, {100, 1.2, 0.004});
+  EXPECT_LT(sigma(), 2 * before);
+  for (int k = 0; k < 20; ++k) uncertainty.SetAlignment(alignment, {100, 1.2, 0.004});  // a second at most
+  EXPECT_GT(sigma(), 5 * before);
+  // Too few patches to say so.
+  const double after = sigma();
+  uncertainty.SetAlignment(alignment, {3, 0.1, 0.004});
+  EXPECT_NEAR(sigma(), after, 1e-9);
+}
+
 // Poses of a body that keeps moving for as long as its events are late.
 TEST(PoseCovariance, LateEventsSpreadPosesAlongTheMotion) {
   const Eigen::Vector3d velocity(0.5, -1, 0.2), rate(2, 0.3, -4);

@@ -151,6 +151,7 @@ void Tracker::Bootstrap(const KeyframeInput& keyframe, bool follows, TrackerOutp
       window_.Start(std::move(found.window), found.prior);
       SetMode(TrackerMode::kTracking, "bootstrapped");
       ReportWindow(out);
+      window_.ReportUncertainty(rate_, out);
       break;
   }
   ReportPose(found.points, out);

@@ -28,14 +28,17 @@ struct WindowOptions {
   int size = 5;  // keyframes N
   RobustKernel::Kind kernel = RobustKernel::Kind::kCauchy;
   FirstNode first_node = FirstNode::kPrior;
-  double image_sigma = 80;   // grey levels: noise of one surface value (docs/explanation/method.md argues the figure)
+  double image_sigma =
+      80;  // grey levels: noise of one surface value (docs/explanation/method.md argues the figure)
   double robust_scale = 80;  // grey levels: scale of the kernel
   int max_iterations = 12;
   double imu_noise_factor = 2;  // on the calibrated densities: covers integration error and vibration
   MotionModel motion_model = MotionModel::kImu;  // what predicts the next keyframe's pose
-  double correlated_share = 1.8;  // covariance: keyframes err together, by so much of one keyframe's variance
-  double map_sigma_m = 0.0012;    // covariance: by which the map around the camera may be shifted, per axis
-  double stamp_sigma_us = 400;    // covariance: by which events may be late beyond the rig's time_offset_us
+  double correlated_share = 1;  // covariance: keyframes err together, by so much of one keyframe's variance
+  double misfit_share = 2;      // covariance: image and map may be shifted as a whole, by so many times what
+                            // patches of the map lie beside their events beyond what the pixel grid explains
+  double map_sigma_m = 0;       // covariance: by which the map may be shifted besides, per axis
+  double stamp_sigma_us = 400;  // covariance: by which events may be late beyond the rig's time_offset_us
 };
 
 /// When bootstrapping has seen enough, and what it refuses (paper Sec. III-C).

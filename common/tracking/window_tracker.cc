@@ -18,12 +18,23 @@ WindowTracker::WindowTracker(const Rig& rig, const TrackerOptions& options,
       alignment_(alignment),
       points_(points),
       window_(alignment, rig.gravity, options.window),
-      uncertainty_(options.window) {}
+      uncertainty_(rig.camera, options.window) {}
 
 void WindowTracker::Start(std::deque<WindowNode> nodes, const StatePrior& prior) {
   window_.Start(std::move(nodes), prior);
   window_.Solve();
   aligned_at_ = window_.nodes().back().t;
+  SetUncertainty(window_.nodes().back());
+}
+
+void WindowTracker::SetUncertainty(const WindowNode& newest) {
+  uncertainty_.SetAlignment(newest.alignment.hessian,
+                            MeasureMisfit(alignment_, *newest.field, newest.points, newest.state.T_map_body));
+}
+
+void WindowTracker::ReportUncertainty(const Eigen::Vector3d& rate, TrackerOutput* out) const {
+  out->information = window_.NewestInformation();
+  out->covariance = uncertainty_.Covariance(out->information, state().velocity, rate);
 }
 
 void WindowTracker::Start(Utime t, const BodyState& state, const Matrix15d& information) {
@@ -87,13 +98,12 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
   result.coasting = WhyCoast(keyframe, out->quality);
   if (result.coasting.empty()) {
     aligned_at_ = keyframe.t;
-    uncertainty_.SetAlignment(newest.alignment.hessian);
+    SetUncertainty(newest);
   } else {
     // A surface that the map does not lie on would only pull the pose away.
     window_.DropNewestAlignment(predicted);
   }
-  out->information = window_.NewestInformation();
-  out->covariance = uncertainty_.Covariance(out->information, newest.state.velocity, rate);
+  ReportUncertainty(rate, out);
 
   const std::string impossible = WhatIsImpossible(newest.state, options_.failure);
   result.failure = !solve.usable         ? "the solver failed"

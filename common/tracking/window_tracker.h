@@ -39,6 +39,9 @@ class WindowTracker {
   /// Fills what `out` says of the newest state. `rate`: rad/s, body frame.
   Result Process(const KeyframeInput& keyframe, const Eigen::Vector3d& rate, TrackerOutput* out);
 
+  /// Fills what `out` says of how well the newest state is known. `rate`: rad/s, body frame.
+  void ReportUncertainty(const Eigen::Vector3d& rate, TrackerOutput* out) const;
+
   void set_solve_budget(double seconds) { window_.set_time_budget(seconds); }
 
   /// Newest estimate. At least one node, once started.
@@ -46,6 +49,7 @@ class WindowTracker {
   const std::deque<WindowNode>& nodes() const { return window_.nodes(); }
 
  private:
+  void SetUncertainty(const WindowNode& newest);
   WindowNode PredictedNode(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) const;
   std::string WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality) const;
   std::string WhyLost(const std::string& coasting, const Matrix6d& covariance) const;

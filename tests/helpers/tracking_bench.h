@@ -16,7 +16,7 @@ inline TrackerOptions TestOptions() {
   o.lag_px = 0;
   o.points.per_keyframe = 600;
   o.points.occlusion = false;
-  o.window.correlated_share = o.window.map_sigma_m = o.window.stamp_sigma_us = 0;
+  o.window.correlated_share = o.window.misfit_share = o.window.map_sigma_m = o.window.stamp_sigma_us = 0;
   o.bootstrap.min_displacement_m = 0.05;
   o.bootstrap.min_rotation_deg = 5;
   o.bootstrap.min_contrast = o.failure.min_contrast = 0.15;
