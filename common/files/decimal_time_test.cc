@@ -40,9 +40,10 @@ TEST(DecimalTimeTest, Forms) {
 TEST(DecimalTimeTest, EveryFormIsExact) {
   for (const auto& [text, micros] :
        {std::pair("1642661138.836530", Utime{1'642'661'138'836'530}), std::pair("12", Utime{12'000'000}),
-        std::pair("-0.5", Utime{-500'000}), std::pair("+1.5e0", Utime{1'500'000}), std::pair(".25", Utime{250'000}),
-        std::pair("1.642661138299999952e+09", Utime{1'642'661'138'300'000}), std::pair("2.7e-05", Utime{27}),
-        std::pair("0.0000005", Utime{1}), std::pair("0.0000004", Utime{0}), std::pair("0e5", Utime{0}),
+        std::pair("-0.5", Utime{-500'000}), std::pair("+1.5e0", Utime{1'500'000}),
+        std::pair(".25", Utime{250'000}), std::pair("1.642661138299999952e+09", Utime{1'642'661'138'300'000}),
+        std::pair("2.7e-05", Utime{27}), std::pair("0.0000005", Utime{1}), std::pair("0.0000004", Utime{0}),
+        std::pair("0e5", Utime{0}),
         std::pair("0.000000000000000000000000000000000000000000000000001e45", Utime{1}),
         std::pair("3.5e1", Utime{35'000'000})}) {
     Utime t = -7;

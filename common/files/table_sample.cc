@@ -86,8 +86,9 @@ TimeUnit UnitOfStamps(const TableSample& sample, std::size_t column, double slow
   std::vector<std::string> name;
   const std::size_t columns = sample.rows.empty() ? 0 : sample.rows.front().size();
   if (column == 0) {
-    name.assign(sample.head.begin(), sample.head.begin() + std::min<std::ptrdiff_t>(
-                                                               2, static_cast<std::ptrdiff_t>(sample.head.size())));
+    name.assign(
+        sample.head.begin(),
+        sample.head.begin() + std::min<std::ptrdiff_t>(2, static_cast<std::ptrdiff_t>(sample.head.size())));
     if (sample.head.size() <= columns && name.size() > 1) name.pop_back();
   } else if (column < sample.head.size() && sample.head.size() <= columns) {
     name = {sample.head[column]};
@@ -109,7 +110,8 @@ TimeUnit UnitOfStamps(const TableSample& sample, std::size_t column, double slow
   };
   if (date && (*date == TimeUnit::kSeconds ? !whole || (fits(*date) && !steps.mostly_none) : fits(*date)))
     return *date;
-  if (!whole || stamps.size() < 2 || (fits(TimeUnit::kSeconds) && !steps.mostly_none)) return TimeUnit::kSeconds;
+  if (!whole || stamps.size() < 2 || (fits(TimeUnit::kSeconds) && !steps.mostly_none))
+    return TimeUnit::kSeconds;
   return steps.median * 1e-6 <= std::min(slowest_s, 0.5) ? TimeUnit::kMicroseconds : TimeUnit::kNanoseconds;
 }
 

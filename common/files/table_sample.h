@@ -17,13 +17,13 @@ struct TableSample {
 /// Up to `max_rows` rows. Throws as TableReader does.
 TableSample SampleTable(const std::string& path, const std::string& layout, std::size_t max_rows = 1000);
 
-/// The unit that a column's name says: "timestamp [ns]", "t_us", "time(ms)", "t[s]"; the words of a name may be
-/// given one by one. Nothing where it says none.
+/// The unit that a column's name says: "timestamp [ns]", "t_us", "time(ms)", "t[s]"; the words of a name may
+/// be given one by one. Nothing where it says none.
 std::optional<TimeUnit> UnitInName(const std::vector<std::string>& words);
 
 /// The unit of a column of stamps: what the head says, else what the number of digits of a date says; for
-/// whole numbers that count from zero, microseconds or nanoseconds where the rows would otherwise be more than
-/// `slowest_s` seconds apart, or mostly at the same second. Seconds where nothing speaks against it.
+/// whole numbers that count from zero, microseconds or nanoseconds where the rows would otherwise be more
+/// than `slowest_s` seconds apart, or mostly at the same second. Seconds where nothing speaks against it.
 TimeUnit UnitOfStamps(const TableSample& sample, std::size_t column, double slowest_s);
 
 }  // namespace evit

@@ -18,6 +18,7 @@ void AddSimulateCommand(CLI::App* app);
 void AddEvalCommand(CLI::App* app);
 void AddCalibrateCommand(CLI::App* app);
 void AddOverlapCommand(CLI::App* app);
+void AddDoctorCommand(CLI::App* app);
 void AddRunCommand(CLI::App* app);
 /// show, check.
 void AddConfigCommand(CLI::App* app);

@@ -34,6 +34,7 @@ int Main(int argc, char** argv) {
   evit::commands::AddEvalCommand(&app);
   evit::commands::AddCalibrateCommand(&app);
   evit::commands::AddOverlapCommand(&app);
+  evit::commands::AddDoctorCommand(&app);
   evit::commands::AddConfigCommand(&app);
   evit::commands::AddPaperCommand(&app);
   evit::commands::AddUpCommand(&app);

@@ -5,12 +5,36 @@
 #include <string>
 
 #include "common/geometry/pose_text.h"
+#include "tools/doctor/doctor.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
 #include "tools/evit/place_options.h"
 #include "tools/run/run.h"
 
 namespace evit::commands {
+namespace {
+
+// After a run that did not track: what examining the recording finds first, where it finds something.
+void SayWhy(const run::RunJob& job) {
+  doctor::Patient patient;
+  patient.log = job.log, patient.rig = job.rig, patient.map = job.map;
+  patient.truth = job.truth, patient.start = job.initial_pose;
+  std::string options =
+      " --log " + job.log + " --rig " + job.rig + (job.map.empty() ? "" : " --map " + job.map);
+  if (!job.truth.empty()) options += " --truth " + job.truth;
+  try {
+    const diagnosis::Findings findings = doctor::Examine(patient, [](double) {});
+    if (!findings.empty() && findings.front().severity != diagnosis::Severity::kGood) {
+      std::fprintf(stderr, "what the doctor finds first: %s\n  remedy: %s\n", findings.front().what.c_str(),
+                   findings.front().remedy.c_str());
+    }
+    std::fprintf(stderr, "all that it looks at: evit doctor%s\n", options.c_str());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "evit doctor cannot look at it: %s\n", error.what());
+  }
+}
+
+}  // namespace
 
 void AddRunCommand(CLI::App* app) {
   struct Options {
@@ -70,6 +94,7 @@ void AddRunCommand(CLI::App* app) {
       throw std::runtime_error("--loops needs --initial-pose or --initial-from: each loop starts there");
     job.command = CommandLineOfThis();
     const int code = run::Run(job);
+    if (code == 2) SayWhy(job);
     if (code != 0) throw CLI::RuntimeError(code);
   });
 }

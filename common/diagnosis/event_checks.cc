@@ -1,0 +1,253 @@
+#include "common/diagnosis/event_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "common/text/format_text.h"
+
+namespace evit::diagnosis {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+Finding Rate(const EventCensus& e) {
+  const double seconds = std::max(e.seconds(), 1e-3);
+  const double rate = static_cast<double>(e.count()) / seconds;
+  const double per_pixel = rate / static_cast<double>(e.by_pixel().size());
+  const std::string figure = FormatText("%lld events in %.1f s: %.2f million/s",
+                                        static_cast<long long>(e.count()), e.seconds(), rate / 1e6);
+  // Half a second without light is a covered lens; an event per pixel in 20 s is noise alone, or a rig at
+  // rest.
+  if (per_pixel < 0.05) {
+    return {"event-rate", Severity::kError, figure,
+            "There are hardly any events: the camera did not move, the lens was covered, or its thresholds "
+            "are set far too high.",
+            "record while moving; lower the camera's contrast thresholds (bias_diff_on, bias_diff_off)"};
+  }
+  return Good("event-rate", figure);
+}
+
+Finding Gaps(const EventCensus& e) {
+  std::size_t longest = 0, run = 0, at = 0;
+  for (std::size_t k = 0; k < e.bins().size(); ++k) {
+    run = e.bins()[k].brighter + e.bins()[k].darker == 0 ? run + 1 : 0;
+    if (run > longest) longest = run, at = k + 1 - run;
+  }
+  const double ms = static_cast<double>(longest);
+  const std::string figure = FormatText("longest time without an event: %.0f ms", ms);
+  const double rate = static_cast<double>(e.count()) / std::max(e.seconds(), 1e-3);
+  // At `rate` chance leaves no gap of twenty expected events.
+  if (ms > 50 && ms / 1e3 * rate > 1000) {
+    return {"event-gaps", ms > 500 ? Severity::kError : Severity::kWarning, figure,
+            FormatText("No events for %.0f ms, %.2f s after the first one: the driver lost them, or the lens "
+                       "was covered.",
+                       ms, static_cast<double>(at) / 1e3),
+            "look for losses on USB (cable, hub, event rate limit of the driver); the IMU bridges two "
+            "seconds at most"};
+  }
+  return Good("event-gaps", figure);
+}
+
+Finding Order(const EventCensus& e) {
+  const double share =
+      static_cast<double>(e.backward()) / static_cast<double>(std::max<std::int64_t>(1, e.count()));
+  const std::string figure =
+      FormatText("%lld events before the one in front of them", static_cast<long long>(e.backward()));
+  if (e.backward() == 0) return Good("event-order", figure);
+  return {"event-order", share > 1e-3 ? Severity::kError : Severity::kWarning, figure,
+          FormatText("Stamps of events go back %.2g %% of the time.", 100 * share),
+          "import the recording again (`evit import` sorts within a window), or sort by time in the driver"};
+}
+
+Finding Polarity(const EventCensus& e) {
+  const double on =
+      static_cast<double>(e.brighter()) / static_cast<double>(std::max<std::int64_t>(1, e.count()));
+  const std::string figure = FormatText("%.0f %% brighter", 100 * on);
+  if (on < 0.02 || on > 0.98) {
+    return {
+        "polarity", Severity::kError, figure,
+        "All events have one polarity: it was lost on the way, or one kind of event is switched off in the "
+        "camera.",
+        "check how polarity is coded (0/1, -1/1) where the recording was converted, and the camera's biases"};
+  }
+  if (on < 0.2 || on > 0.8) {
+    return {"polarity", Severity::kWarning, figure, "One polarity is far more frequent than the other.",
+            "balance the camera's thresholds (bias_diff_on, bias_diff_off)"};
+  }
+  return Good("polarity", figure);
+}
+
+Finding Size(const EventCensus& e) {
+  const std::string figure = FormatText("events up to (%d, %d); the rig file's camera has %dx%d", e.max_x(),
+                                        e.max_y(), e.width(), e.height());
+  const double out =
+      static_cast<double>(e.outside()) / static_cast<double>(std::max<std::int64_t>(1, e.count()));
+  if (out > 1e-3) {
+    return {"sensor-size", Severity::kError, figure,
+            FormatText("%.1f %% of the events lie outside the camera of the rig file: it is another "
+                       "camera's, or another resolution's.",
+                       100 * out),
+            FormatText("use the rig file of this camera: at least width %d, height %d, with the intrinsics "
+                       "of that resolution",
+                       e.max_x() + 1, e.max_y() + 1)};
+  }
+  std::int64_t inside = 0;
+  const int w = e.width(), h = e.height();
+  int used_x = 0, used_y = 0;
+  std::vector<std::int64_t> columns(static_cast<std::size_t>(w), 0), rows(static_cast<std::size_t>(h), 0);
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) {
+      const std::uint32_t n = e.by_pixel()[static_cast<std::size_t>(y * w + x)];
+      columns[static_cast<std::size_t>(x)] += n, rows[static_cast<std::size_t>(y)] += n, inside += n;
+    }
+  }
+  const auto last_used = [inside](const std::vector<std::int64_t>& sums) {
+    // Dark parts of a scene still have noise; what is not there has nothing, but for a few damaged events.
+    const double few = 3 + 1e-4 * static_cast<double>(inside) / static_cast<double>(sums.size());
+    int last = 0;
+    for (std::size_t k = 0; k < sums.size(); ++k)
+      if (static_cast<double>(sums[k]) > few) last = static_cast<int>(k) + 1;
+    return last;
+  };
+  used_x = last_used(columns), used_y = last_used(rows);
+  if (inside > 1000 && (used_x < 0.85 * w || used_y < 0.85 * h)) {
+    return {"sensor-size", Severity::kError, figure,
+            FormatText("Events fill only the first %dx%d pixels of the %dx%d of the rig file: it is for "
+                       "another resolution, or a region of interest is set.",
+                       used_x, used_y, w, h),
+            FormatText("use a rig file with width %d, height %d and the intrinsics of that resolution",
+                       used_x, used_y)};
+  }
+  return Good("sensor-size", figure);
+}
+
+Finding HotPixels(const EventCensus& e) {
+  std::vector<std::uint32_t> sorted;
+  for (const std::uint32_t n : e.by_pixel())
+    if (n > 0) sorted.push_back(n);
+  if (sorted.size() < 100) return Good("hot-pixels", "too few pixels to tell");
+  std::sort(sorted.begin(), sorted.end());
+  const double usual = sorted[sorted.size() * 99 / 100];
+  const double limit = std::max({10 * usual, 50.0 * std::max(e.seconds(), 0.1)});  // 50 Hz at least
+  std::int64_t hot = 0, from_hot = 0;
+  for (const std::uint32_t n : sorted)
+    if (n > limit) ++hot, from_hot += n;
+  const double share = static_cast<double>(from_hot) / static_cast<double>(e.count());
+  const std::string figure =
+      FormatText("%lld hot pixels with %.1f %% of the events", static_cast<long long>(hot), 100 * share);
+  if (share > 0.1 || hot > static_cast<std::int64_t>(e.by_pixel().size() / 500)) {
+    return {"hot-pixels", share > 0.5 ? Severity::kError : Severity::kWarning, figure,
+            "Some pixels fire without a cause, again and again.",
+            "mask them in the driver; EVIT leaves out pixels above `surface.hot_pixel_rate_hz`"};
+  }
+  return Good("hot-pixels", figure);
+}
+
+// Pixels without an event in the midst of others that have many.
+Finding DeadPixels(const EventCensus& e) {
+  const int w = e.width(), h = e.height();
+  std::int64_t judged = 0, dead = 0;
+  for (int y = 2; y + 2 < h; ++y) {
+    for (int x = 2; x + 2 < w; ++x) {
+      std::int64_t around = 0, silent = 0;
+      for (int v = -2; v <= 2; ++v)
+        for (int u = -2; u <= 2; ++u) {
+          const std::uint32_t n = e.by_pixel()[static_cast<std::size_t>((y + v) * w + x + u)];
+          if (u != 0 || v != 0) around += n, silent += n == 0 ? 1 : 0;
+        }
+      if (around < 24 * 15) continue;
+      ++judged;
+      if (e.by_pixel()[static_cast<std::size_t>(y * w + x)] == 0) ++dead;
+    }
+  }
+  const double share = static_cast<double>(dead) / static_cast<double>(std::max<std::int64_t>(1, judged));
+  const std::string figure = FormatText("%lld of %lld pixels silent among busy ones",
+                                        static_cast<long long>(dead), static_cast<long long>(judged));
+  if (judged > 1000 && share > 0.02) {
+    return {"dead-pixels", share > 0.3 ? Severity::kError : Severity::kWarning, figure,
+            FormatText("%.0f %% of the pixels never fire though all around them do.", 100 * share),
+            "look for a mask or a subsampling in the driver; EVIT tracks with half of the pixels, not with a "
+            "tenth"};
+  }
+  return Good("dead-pixels", figure);
+}
+
+Finding Noise(const EventCensus& e) {
+  const double share =
+      static_cast<double>(e.alone()) / static_cast<double>(std::max<std::int64_t>(1, e.count()));
+  const std::string figure = FormatText("%.0f %% of the events without company", 100 * share);
+  if (share > 0.5) {
+    return {"event-noise", share > 0.8 ? Severity::kError : Severity::kWarning, figure,
+            "Most events have no other near them in space and time: noise, or hardly any motion.",
+            "raise the camera's thresholds or its low-pass (bias_fo), give it more light, move more"};
+  }
+  return Good("event-noise", figure);
+}
+
+Finding FlickerOf(const EventCensus& e) {
+  const Flicker f = FindFlicker(e);
+  const std::string figure = FormatText("strongest swing %.0f %% at %.0f Hz", 100 * f.swing, f.hz);
+  if (f.swing > 0.25 && f.excess > 6) {
+    return {"flicker", f.swing > 0.5 ? Severity::kError : Severity::kWarning, figure,
+            FormatText("The light flickers at %.0f Hz: a lamp on %d Hz mains. It makes events on every edge, "
+                       "moving or not.",
+                       f.hz, f.hz == 50 || f.hz == 100 ? 50 : 60),
+            "use daylight or lamps with direct current; else switch on the camera's anti-flicker filter"};
+  }
+  return Good("flicker", figure);
+}
+
+}  // namespace
+
+Flicker FindFlicker(const EventCensus& e) {
+  Flicker best;
+  const std::size_t n = e.bins().size();
+  if (n < 1000 || e.count() < 10'000) return best;
+  // Of the share of brightening in each millisecond, not of the rate: bursts that readout or frames make have
+  // both polarities alike. Amplitudes of windows of half a second, as the phase of the mains drifts.
+  const auto amplitude = [&e, n](double hz) {
+    constexpr std::size_t kWindow = 500;
+    double sum = 0;
+    std::size_t windows = 0;
+    for (std::size_t begin = 0; begin + kWindow <= n; begin += kWindow, ++windows) {
+      double mean = 0, events = 0;
+      for (std::size_t k = begin; k < begin + kWindow; ++k) {
+        mean += static_cast<double>(e.bins()[k].brighter) - static_cast<double>(e.bins()[k].darker);
+        events += static_cast<double>(e.bins()[k].brighter) + static_cast<double>(e.bins()[k].darker);
+      }
+      if (events < 1000) continue;
+      mean /= kWindow;
+      std::complex<double> total = 0;
+      for (std::size_t k = begin; k < begin + kWindow; ++k) {
+        const double signal =
+            static_cast<double>(e.bins()[k].brighter) - static_cast<double>(e.bins()[k].darker) - mean;
+        total += signal * std::polar(1.0, -2 * kPi * hz * static_cast<double>(k) / 1e3);
+      }
+      sum += 2 * std::abs(total) / events;
+    }
+    return windows > 0 ? sum / static_cast<double>(windows) : 0;
+  };
+  for (const double hz : {50.0, 60.0, 100.0, 120.0}) {
+    std::vector<double> beside;
+    for (const double by : {-9.0, -7.0, -5.0, 5.0, 7.0, 9.0}) beside.push_back(amplitude(hz + by));
+    std::nth_element(beside.begin(), beside.begin() + 3, beside.end());
+    const double swing = amplitude(hz), excess = swing / std::max(beside[3], 1e-6);
+    // Events made from video swing at all multiples of its 30 Hz.
+    const bool video = 2 * std::max(amplitude(hz - 30), amplitude(hz + 30)) > swing;
+    if (swing > best.swing && excess > 3 && !video) best = {hz, swing, excess};
+  }
+  return best;
+}
+
+Findings CheckEvents(const EventCensus& events) {
+  if (events.count() == 0) {
+    return {{"event-rate", Severity::kError, "no event", "The recording holds no events on EVENTS.",
+             "import it again, and look at what `evit import` counts"}};
+  }
+  return {Rate(events),      Order(events),      Polarity(events),  Size(events), Gaps(events),
+          HotPixels(events), DeadPixels(events), FlickerOf(events), Noise(events)};
+}
+
+}  // namespace evit::diagnosis

@@ -1,0 +1,216 @@
+#include "common/diagnosis/overlap_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "common/overlap/map_event_overlap.h"
+#include "common/text/format_text.h"
+
+namespace evit::diagnosis {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Everything that an assumption can change.
+struct World {
+  Rig rig;
+  Trajectory truth;
+  bool mirror_x = false, mirror_y = false;
+};
+
+struct Assumption {
+  std::string what, remedy;
+  std::function<void(World*)> make;
+};
+
+Trajectory Around(const Trajectory& truth, Utime t) {
+  Trajectory part;
+  for (const StampedPose& s : truth)
+    if (std::abs(s.t - t) < 400'000) part.push_back(s);
+  return part;
+}
+
+// Of every `stride`-th excerpt.
+MapEventOverlap Measure(const MapIndex& map, const World& world, const EventExcerpts& excerpts,
+                        std::size_t stride = 1) {
+  MapEventOverlap sum;
+  for (std::size_t k = stride / 2; k < excerpts.instants().size(); k += stride) {
+    const Utime t = excerpts.instants()[k] + world.rig.camera_time_offset;
+    SE3 a, b, c;
+    if (!PoseAt(world.truth, t, &b) || !PoseAt(world.truth, t - 10'000, &a) ||
+        !PoseAt(world.truth, t + 10'000, &c))
+      continue;
+    // One view, in the middle of a trajectory of its own.
+    MapViewOptions options;
+    options.max_points = 1500;
+    const Trajectory way{
+        {t - options.longest, a}, {t - 10'000, a}, {t, b}, {t + 10'000, c}, {t + options.longest, c}};
+    options.step = 10 * options.longest;
+    std::vector<MapView> views = PlanViews(map, world.rig, way, options);
+    ViewFiller filler(&views);
+    if (!world.mirror_x && !world.mirror_y) {
+      filler.AddEvents(excerpts.events()[k]);
+    } else {
+      EventArray turned = excerpts.events()[k];
+      for (std::size_t e = 0; e < turned.size(); ++e) {
+        if (world.mirror_x)
+          turned.x[e] = static_cast<std::uint16_t>(world.rig.camera.width - 1 - turned.x[e]);
+        if (world.mirror_y)
+          turned.y[e] = static_cast<std::uint16_t>(world.rig.camera.height - 1 - turned.y[e]);
+      }
+      filler.AddEvents(turned);
+    }
+    OverlapOptions near;  // a pixel tells small offsets from none better than two
+    near.radius_px = 1;
+    sum.Add(MeasureOverlap(world.rig, views, near));
+  }
+  return sum;
+}
+
+SE3 Turn(double degrees, const Eigen::Vector3d& axis) {
+  return {ExpSO3(degrees * kPi / 180 * axis), Eigen::Vector3d::Zero()};
+}
+
+void MovePoses(World* world, const std::function<SE3(const SE3&)>& change) {
+  for (StampedPose& s : world->truth) s.pose = change(s.pose);
+}
+
+std::vector<Assumption> Assumptions(const Rig& rig) {
+  std::vector<Assumption> all;
+  all.push_back({"T_body_camera is inverted",
+                 "put the inverse into the rig file: it maps the camera's coordinates to the body's (Kalibr "
+                 "gives T_cam_imu)",
+                 [](World* w) { w->rig.T_body_camera = w->rig.T_body_camera.Inverse(); }});
+  all.push_back({"The truth is the camera's, not the IMU's",
+                 "give poses of the IMU: T_map_camera times the inverse of T_body_camera", [](World* w) {
+                   const SE3 back = w->rig.T_body_camera.Inverse();
+                   MovePoses(w, [&back](const SE3& pose) { return pose * back; });
+                 }});
+  all.push_back({"The truth maps the map to the body, not the body to the map",
+                 "invert the poses of the truth",
+                 [](World* w) { MovePoses(w, [](const SE3& pose) { return pose.Inverse(); }); }});
+  all.push_back({"The truth is a marker body's, not the IMU's",
+                 "import the truth with this rig file, whose T_marker_body turns it into the IMU's",
+                 [](World* w) {
+                   const SE3 marker = w->rig.T_marker_body;
+                   MovePoses(w, [&marker](const SE3& pose) { return pose * marker; });
+                 }});
+  for (const bool x : {true, false}) {
+    for (const bool y : {true, false}) {
+      if (!x && !y) continue;
+      all.push_back({x && y ? "The image is upside down"
+                     : x    ? "The image is mirrored left to right"
+                            : "The image is mirrored top to bottom",
+                     "turn the flip off in the driver, or turn the coordinates of the events around",
+                     [x, y](World* w) { w->mirror_x = x, w->mirror_y = y; }});
+    }
+  }
+  for (const double scale : {0.5, 2.0}) {
+    all.push_back({"The intrinsics are for another resolution",
+                   FormatText("multiply fx, fy, cx and cy by %.1f", scale), [scale](World* w) {
+                     Camera& c = w->rig.camera;
+                     c.fx *= scale, c.fy *= scale, c.cx = (c.cx + 0.5) * scale - 0.5,
+                                                   c.cy = (c.cy + 0.5) * scale - 0.5;
+                   }});
+  }
+  for (const double ms : {5.0, 10.0, 20.0, 40.0, 80.0, -5.0, -10.0, -20.0, -40.0, -80.0}) {
+    all.push_back(
+        {FormatText("The camera's clock is some %.0f ms off", ms),
+         FormatText("set `time_offset_us: %.0f` in the rig file, then let `evit calibrate` find it exactly",
+                    static_cast<double>(rig.camera_time_offset) + 1e3 * ms),
+         [ms](World* w) { w->rig.camera_time_offset += std::llround(1e3 * ms); }});
+  }
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1)}) {
+    const char name = axis.x() > 0 ? 'x' : axis.y() > 0 ? 'y' : 'z';
+    for (const double degrees : {90.0, -90.0, 180.0}) {
+      all.push_back(
+          {FormatText("The map is turned by %.0f degrees about %c", degrees, name),
+           FormatText("turn it with `evit map import --transform` by %.0f degrees about %c", -degrees, name),
+           [degrees, axis](World* w) {
+             MovePoses(w, [&](const SE3& pose) { return Turn(degrees, axis) * pose; });
+           }});
+      all.push_back(
+          {FormatText("The camera's axes are turned by %.0f degrees about %c in T_body_camera", degrees,
+                      name),
+           "z must point along the optical axis, x to the right, y down",
+           [degrees, axis](World* w) { w->rig.T_body_camera = w->rig.T_body_camera * Turn(degrees, axis); }});
+    }
+    for (const double degrees : {1.0, -1.0, 2.0, -2.0, 4.0, -4.0, 8.0, -8.0}) {
+      all.push_back({FormatText("T_body_camera is off by some %.0f degrees about the camera's %c axis",
+                                std::abs(degrees), name),
+                     "let `evit calibrate` find the extrinsics", [degrees, axis](World* w) {
+                       w->rig.T_body_camera = w->rig.T_body_camera * Turn(degrees, axis);
+                     }});
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+EventExcerpts::EventExcerpts(std::vector<Utime> instants, Utime reach)
+    : instants_(std::move(instants)), reach_(reach), events_(instants_.size()) {}
+
+void EventExcerpts::Add(const EventArray& events) {
+  if (events.size() == 0) return;
+  for (std::size_t k = 0; k < instants_.size(); ++k) {
+    if (instants_[k] + reach_ < events.t.front() || instants_[k] - reach_ > events.t.back()) continue;
+    for (std::size_t e = 0; e < events.size(); ++e) {
+      if (std::abs(events.t[e] - instants_[k]) <= reach_)
+        events_[k].push_back(events.t[e], events.x[e], events.y[e], events.p[e]);
+    }
+  }
+}
+
+Findings CheckOverlap(const MapIndex& map, const Rig& rig, const Trajectory& truth,
+                      const EventExcerpts& excerpts) {
+  World as_is{rig, {}};
+  for (const Utime t : excerpts.instants()) {
+    const Trajectory part = Around(truth, t + rig.camera_time_offset);
+    as_is.truth.insert(as_is.truth.end(), part.begin(), part.end());
+  }
+  std::sort(as_is.truth.begin(), as_is.truth.end(),
+            [](const StampedPose& a, const StampedPose& b) { return a.t < b.t; });
+  as_is.truth.erase(std::unique(as_is.truth.begin(), as_is.truth.end(),
+                                [](const StampedPose& a, const StampedPose& b) { return a.t == b.t; }),
+                    as_is.truth.end());
+  const MapEventOverlap given = Measure(map, as_is, excerpts);
+  const double kappa = given.views > 0 ? given.kappa() : 0;
+  const Assumption* better = nullptr;
+  double best = kappa;
+  const std::vector<Assumption> all = Assumptions(rig);
+  for (const Assumption& assumption : all) {
+    World world = as_is;
+    assumption.make(&world);
+    // A look at a third of them spares the rest where it is hopeless.
+    if (Measure(map, world, excerpts, 3).kappa() < 0.8 * best) continue;
+    const MapEventOverlap overlap = Measure(map, world, excerpts);
+    if (2 * overlap.views < static_cast<std::int64_t>(excerpts.instants().size())) continue;
+    // A first one among equals: they come with the usual ones first.
+    if (overlap.kappa() > best + 0.02) best = overlap.kappa(), better = &assumption;
+  }
+  const std::string figure =
+      FormatText("%.0f %% of the points have events within a pixel (by chance %.0f %%)",
+                 100 * given.point_share(), 100 * given.point_share_by_chance());
+  if (better != nullptr && best > 0.08 && best > 1.3 * kappa + 0.03) {
+    return {{"map-overlap", kappa < 0.5 * best ? Severity::kError : Severity::kWarning, figure,
+             better->what +
+                 FormatText(": then the map lies on the events (%.2f instead of %.2f, of 1).", best, kappa),
+             better->remedy}};
+  }
+  if (given.views == 0) {
+    return {{"map-overlap", Severity::kError, "no map points in view at the truth's poses",
+             "At the truth's poses the camera sees nothing of the map: they are in different frames.",
+             "give truth and map in one frame: `evit map import --transform`"}};
+  }
+  if (kappa < 0.03) {
+    return {{"map-overlap", Severity::kError, figure,
+             "At the truth's poses the map lies on the events no better than by chance.",
+             "`evit map check` shows pictures of it: another frame, another room, or a scale"}};
+  }
+  return {Good("map-overlap", figure)};
+}
+
+}  // namespace evit::diagnosis

@@ -1,0 +1,117 @@
+#include "tools/doctor/doctor.h"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "common/config/rig_file.h"
+#include "common/diagnosis/clock_checks.h"
+#include "common/diagnosis/event_checks.h"
+#include "common/diagnosis/imu_checks.h"
+#include "common/diagnosis/map_checks.h"
+#include "common/diagnosis/overlap_checks.h"
+#include "common/diagnosis/rig_checks.h"
+#include "common/diagnosis/truth_checks.h"
+#include "common/evaluation/trajectory.h"
+#include "common/map/map_file.h"
+#include "common/text/format_text.h"
+#include "tools/doctor/recorded_data.h"
+
+namespace evit::doctor {
+namespace {
+
+using diagnosis::Finding;
+using diagnosis::Findings;
+using diagnosis::Severity;
+
+constexpr int kExcerpts = 10;
+constexpr Utime kReach = 130'000;  // us: the longest time offset that is tried, and half of a slice
+
+// Instants spread over what events and truth have in common.
+diagnosis::EventExcerpts Excerpts(const RecordedData& data, const Rig& rig, const Trajectory& truth,
+                                  double seconds) {
+  std::vector<Utime> instants;
+  if (truth.size() > 1) {
+    const Utime begin = std::max(data.begin(), truth.front().t - rig.camera_time_offset) + kReach;
+    const Utime end = std::min({data.end(), truth.back().t - rig.camera_time_offset,
+                                data.begin() + static_cast<Utime>(1e6 * seconds)}) -
+                      kReach;
+    for (int k = 0; k < kExcerpts && end > begin; ++k)
+      instants.push_back(begin + (end - begin) * (2 * k + 1) / (2 * kExcerpts));
+  }
+  return {std::move(instants), kReach};
+}
+
+void Append(Findings* all, Findings more) {
+  for (Finding& finding : more) all->push_back(std::move(finding));
+}
+
+Findings CheckLog(const RecordedData& data) {
+  Findings found;
+  if (data.malformed() > 0) {
+    found.push_back({"log", Severity::kWarning,
+                     FormatText("%lld messages not well-formed", static_cast<long long>(data.malformed())),
+                     "Some messages of the log are damaged, or of another version of the types.",
+                     "import or record it again"});
+  }
+  if (data.truncated()) {
+    found.push_back({"log", Severity::kWarning, "the log ends in the middle of a message",
+                     "The log was cut off.", "`evit run --allow-truncated` uses what is whole"});
+  }
+  if (found.empty()) found.push_back(diagnosis::Good("log", "every message well-formed"));
+  return found;
+}
+
+void CheckPlace(const Patient& patient, const Rig& rig, const Trajectory& truth,
+                const std::vector<ImuSample>& imu, const diagnosis::EventExcerpts& excerpts,
+                Findings* found) {
+  PointMap points = LoadMap(patient.map).map;
+  Append(found, diagnosis::CheckMap(points));
+  const bool usable = found->back().severity != Severity::kError;
+  if (!usable) return;
+  const MapIndex map(std::move(points));
+  std::optional<SE3> start = patient.start;
+  SE3 pose;
+  if (!start && truth.size() > 1 && !imu.empty() &&
+      PoseAt(truth, std::max(truth.front().t, imu.front().t), &pose))
+    start = pose;
+  Findings at_truth;
+  if (!excerpts.instants().empty()) at_truth = diagnosis::CheckOverlap(map, rig, truth, excerpts);
+  // What would mend the overlap says more than that the start sees nothing.
+  if (!at_truth.empty() && at_truth.front().severity != Severity::kGood) {
+    Append(found, std::move(at_truth));
+    if (!patient.start) return;
+    at_truth.clear();
+  }
+  if (start) Append(found, diagnosis::CheckStart(map, rig, *start, imu));
+  Append(found, std::move(at_truth));
+}
+
+}  // namespace
+
+Findings Examine(const Patient& patient, const std::function<void(double)>& progress) {
+  const Rig rig = LoadRig(patient.rig);
+  const Trajectory truth = patient.truth.empty() ? Trajectory{} : ReadTum(patient.truth);
+  RecordedData data(patient.log);
+  diagnosis::EventCensus events(rig.camera.width, rig.camera.height);
+  diagnosis::EventExcerpts excerpts = Excerpts(data, rig, truth, patient.seconds);
+  std::vector<ImuSample> imu;
+  data.Read(patient.seconds,
+            {[&](const EventArray& part) { events.Add(part), excerpts.Add(part); },
+             [&](const std::vector<ImuSample>& part) { imu.insert(imu.end(), part.begin(), part.end()); },
+             progress});
+  // The more basic cause first: of findings that are equally bad the first one is what to mend.
+  Findings found = CheckLog(data);
+  Append(&found, diagnosis::CheckEvents(events));
+  Append(&found, diagnosis::CheckImu(imu, rig));
+  Append(&found, diagnosis::CheckClocks(events, imu, rig.camera_time_offset));
+  Append(&found, diagnosis::CheckRig(rig));
+  Append(&found, diagnosis::CheckTruth(truth, imu));
+  if (!patient.map.empty()) CheckPlace(patient, rig, truth, imu, excerpts, &found);
+  diagnosis::SortBySeverity(&found);
+  return found;
+}
+
+}  // namespace evit::doctor

@@ -1,0 +1,88 @@
+#include "tools/doctor/recorded_data.h"
+
+#include <optional>
+#include <stdexcept>
+
+#include "common/bus/codec.h"
+#include "common/wire/event_wire.h"
+#include "common/wire/imu_wire.h"
+
+namespace evit::doctor {
+namespace {
+
+// A channel by its name, or by its name behind the only prefix there is.
+std::string FindChannel(const LogReader& log, const std::string& path, const std::string& name) {
+  std::vector<std::string> found;
+  std::string all;
+  for (const std::string& channel : log.channels()) {
+    if (channel == name) return channel;
+    const bool ends =
+        channel.size() > name.size() && channel.compare(channel.size() - name.size(), name.size(), name) == 0;
+    if (ends && channel[channel.size() - name.size() - 1] == '/') found.push_back(channel);
+    all += (all.empty() ? "" : ", ") + channel;
+  }
+  if (found.size() == 1) return found.front();
+  throw std::runtime_error(path + (found.empty() ? " has no channel " : " has several channels ") + name +
+                           " (it has: " + all + "); make a log with `evit import`");
+}
+
+}  // namespace
+
+RecordedData::RecordedData(const std::string& path)
+    : log_(path), events_(FindChannel(log_, path, "EVENTS")), imu_(FindChannel(log_, path, "IMU")) {
+  event_packet_t first, last;
+  std::vector<std::uint8_t> bytes;
+  bool any = false;
+  EventArray events;
+  const auto stamp = [&](const LogEntry& entry, bool at_begin) {
+    if (log_.channel(entry) != events_) return false;
+    log_.Read(entry, &bytes);
+    if (!DecodeChecked(bytes.data(), bytes.size(), &first)) return false;
+    events.clear();
+    AppendEvents(first, &events);
+    if (events.size() == 0) return false;
+    (at_begin ? begin_ : end_) = at_begin ? events.t.front() : events.t.back();
+    return any = true;
+  };
+  for (auto entry = log_.entries().begin(); entry != log_.entries().end() && !stamp(*entry, true);) ++entry;
+  for (auto entry = log_.entries().rbegin(); entry != log_.entries().rend() && !stamp(*entry, false);)
+    ++entry;
+  if (!any)
+    throw std::runtime_error(path + ": there is no event on " + events_ + "; import the recording again");
+}
+
+void RecordedData::Read(double seconds, const Sinks& sinks) {
+  std::vector<std::uint8_t> bytes;
+  event_packet_t packet;
+  imu_batch_t batch;
+  EventArray events;
+  std::size_t done = 0;
+  std::optional<Utime> first_events, first_imu;
+  const std::vector<LogEntry>& entries = log_.entries();
+  for (const LogEntry& entry : entries) {
+    if (++done % 256 == 0) sinks.progress(static_cast<double>(done) / static_cast<double>(entries.size()));
+    const std::string& channel = log_.channel(entry);
+    if (channel != events_ && channel != imu_) continue;
+    // Of each stream by itself: they may be on two clocks.
+    std::optional<Utime>& first = channel == events_ ? first_events : first_imu;
+    if (!first) first = entry.utime;
+    if (ToSeconds(entry.utime - *first) > seconds) continue;
+    log_.Read(entry, &bytes);
+    if (channel == events_) {
+      if (!DecodeChecked(bytes.data(), bytes.size(), &packet)) {
+        ++malformed_;
+        continue;
+      }
+      events.clear();
+      AppendEvents(packet, &events);
+      sinks.events(events);
+    } else if (DecodeChecked(bytes.data(), bytes.size(), &batch)) {
+      sinks.imu(SamplesOf(batch));
+    } else {
+      ++malformed_;
+    }
+  }
+  sinks.progress(1);
+}
+
+}  // namespace evit::doctor

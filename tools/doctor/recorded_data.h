@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/bus/log_file.h"
+#include "common/events/event.h"
+#include "common/imu/imu_sample.h"
+
+namespace evit::doctor {
+
+/// Events and IMU samples of an LCM log as they were recorded, whatever their order; messages that are not
+/// well-formed are counted and left out.
+class RecordedData {
+ public:
+  /// Throws std::runtime_error naming the file: unreadable, or no EVENTS and IMU in it.
+  explicit RecordedData(const std::string& path);
+
+  /// us, the events' clock, of the first and the last message of events.
+  Utime begin() const { return begin_; }
+  Utime end() const { return end_; }
+
+  struct Sinks {
+    std::function<void(const EventArray&)> events;
+    std::function<void(const std::vector<ImuSample>&)> imu;
+    std::function<void(double)> progress;  // 0..1
+  };
+  /// All of the first `seconds` of the log.
+  void Read(double seconds, const Sinks& sinks);
+  /// Messages that were not well-formed, since the beginning.
+  std::int64_t malformed() const { return malformed_; }
+  bool truncated() const { return log_.trailing_bytes() > 0; }
+
+ private:
+  LogReader log_;
+  std::string events_, imu_;
+  Utime begin_ = 0, end_ = 0;
+  std::int64_t malformed_ = 0;
+};
+
+}  // namespace evit::doctor
