@@ -22,7 +22,10 @@ void PrintStreams(const formats::ImportSummary& s) {
   std::printf("stamps: %s to %s s\n", DecimalSeconds(s.first_event).c_str(),
               DecimalSeconds(s.last_event).c_str());
   if (s.n_imu > 0) {
-    std::printf("IMU: %.0f Hz\n", s.imu_rate_hz);
+    std::printf("IMU: %.0f Hz", s.imu_rate_hz);
+    if (s.imu_offset != 0)
+      std::printf(", %+.6f s added to its stamps", 1e-6 * static_cast<double>(s.imu_offset));
+    std::printf("\n");
   } else {
     std::printf("no IMU: evit run needs one; import again with --imu FILE where another file holds it\n");
   }
@@ -45,6 +48,8 @@ void AddImportRecording(CLI::App* import) {
   import->add_option("--imu", o->job.imu, "Another file with the IMU: a table, HDF5, a bag, ...");
   import->add_option("--imu-offset", o->job.imu_offset,
                      "Seconds to add to IMU stamps to get the clock of the events");
+  import->add_flag("--align-clocks", o->job.align_clocks,
+                   "Find that offset, up to 2 s around it, from the rotation that events and gyro show");
   import->add_option("--truth", o->job.truth,
                      "Another file with the truth: a table (TUM, EuRoC, ...), HDF5, a bag");
   formats::StreamChoice& choice = o->job.choice;

@@ -2,9 +2,12 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "tools/formats/alignment/clock_alignment.h"
+#include "tools/formats/alignment/event_flow.h"
 #include "tools/formats/hdf5/h5_recording.h"
 #include "tools/formats/recognition/recording_folder.h"
 #include "tools/formats/tables/stream_tables.h"
@@ -29,6 +32,22 @@ ImportStreams StreamsOf(const std::string& path, bool imu, const StreamChoice& c
   if (imu && streams.imu.empty()) throw std::runtime_error(path + ": holds no IMU samples that can be read");
   if (!imu && streams.truth.empty()) throw std::runtime_error(path + ": holds no poses that can be read");
   return streams;
+}
+
+// The first minute is enough, and all that is read.
+Utime FindOffset(Recording* recording, const RecordingInfo& info, const ImportStreams& streams, Utime guess) {
+  constexpr Utime kLongest = 60 * kMicrosPerSecond, kRange = 2 * kMicrosPerSecond;
+  if (streams.imu.empty()) throw std::runtime_error("--align-clocks: there is no IMU; give --imu FILE");
+  const std::unique_ptr<EventSource> events = recording->Events(info.width, info.height);
+  EventFlow flow(info.width, info.height);
+  EventArray piece;
+  std::optional<Utime> begin;
+  while (events->Read(&piece)) {
+    if (!begin) begin = piece.t.front();
+    flow.Add(piece);
+    if (piece.t.back() - *begin > kLongest) break;
+  }
+  return AlignClocks(flow.samples(), streams.imu, guess, kRange).offset;
 }
 
 }  // namespace
@@ -64,10 +83,14 @@ ImportSummary ImportRecording(const RecordingImport& given,
     streams.truth = std::move(other.truth);
     streams.dropped_truth = other.dropped_truth;
   }
-  for (ImuSample& s : streams.imu) s.t += std::llround(1e6 * job.imu_offset);
+  Utime imu_offset = std::llround(1e6 * job.imu_offset);
+  if (job.align_clocks) imu_offset = FindOffset(recording.get(), info, streams, imu_offset);
+  for (ImuSample& s : streams.imu) s.t += imu_offset;
   for (StampedPose& s : streams.truth) s.pose = job.T_map_world * s.pose * job.T_marker_body;
   const std::unique_ptr<EventSource> events = recording->Events(info.width, info.height);
-  return ImportLog(job, events.get(), std::move(streams), progress);
+  ImportSummary summary = ImportLog(job, events.get(), std::move(streams), progress);
+  summary.imu_offset = imu_offset;
+  return summary;
 }
 
 }  // namespace evit::formats
