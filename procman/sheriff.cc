@@ -8,8 +8,8 @@
 namespace evit::procman {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr auto kRepeat = std::chrono::milliseconds(200);  // UDP may lose an order
+constexpr auto kLongest = std::chrono::seconds(15);       // stop_time_allowed may pass before it is obeyed
 
 std::int64_t HostMicroseconds() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -21,7 +21,9 @@ std::int64_t HostMicroseconds() {
 Sheriff::Sheriff(Bus* bus) : bus_(bus) {
   bus_->Subscribe(kPmInfo, [this](const std::string&, const std::uint8_t* data, std::size_t size) {
     procman_lcm::deputy_info_t message;
-    if (DecodeProcman(data, size, &message)) deputies_[message.deputy_id] = std::move(message);
+    if (!DecodeProcman(data, size, &message)) return;
+    heard_[message.deputy_id] = Clock::now();
+    deputies_[message.deputy_id] = std::move(message);
   });
 }
 
@@ -83,34 +85,75 @@ std::string Sheriff::DeputyOf(const std::string& id) const {
   return found;
 }
 
-void Sheriff::Give(Order order, const std::string& id, std::chrono::milliseconds longest) {
-  Look(longest);
-  const std::string deputy = DeputyOf(id);
-  const procman_lcm::cmd_status_t before = *StatusOf(deputy, id);
-  if (order == Order::kStart && before.pid != 0) return;
+void Sheriff::Forget(std::chrono::milliseconds silent) {
+  for (auto heard = heard_.begin(); heard != heard_.end();) {
+    if (Clock::now() - heard->second <= silent) {
+      ++heard;
+      continue;
+    }
+    deputies_.erase(heard->first);
+    heard = heard_.erase(heard);
+  }
+}
+
+void Sheriff::Begin(Order order, const std::string& id) {
+  Pending pending;
+  pending.order = order;
+  pending.deputy = DeputyOf(id);
+  pending.before = *StatusOf(pending.deputy, id);
+  pending.begun = Clock::now();
+  if (order == Order::kStart && pending.before.pid != 0) return;
+  pending_[id] = std::move(pending);
+  Tick();
+}
+
+bool Sheriff::Obeyed(const Pending& pending) const {
+  const auto deputy = deputies_.find(pending.deputy);
+  if (deputy == deputies_.end()) return false;
+  const procman_lcm::cmd_status_t* now = StatusOf(pending.deputy, pending.before.cmd.command_id);
+  if (now == nullptr) return false;
+  return pending.order == Order::kStop ? now->pid == 0 : now->pid != 0 && now->pid != pending.before.pid;
+}
+
+void Sheriff::Send(const Pending& pending) {
   procman_lcm::orders_t orders;
-  orders.deputy_id = deputy;
+  orders.utime = HostMicroseconds();
+  orders.deputy_id = pending.deputy;
   orders.sheriff_id = "evit";
   orders.ncmds = 1;
   orders.cmds.resize(1);
-  orders.cmds[0].cmd = before.cmd;
-  orders.cmds[0].desired_runid = before.actual_runid + (order == Order::kStop ? 0 : 1);
-  orders.cmds[0].force_quit = order == Order::kStop ? 1 : 0;
-  const auto obeyed = [&] {
-    const procman_lcm::cmd_status_t* now = StatusOf(deputy, id);
-    if (now == nullptr) return false;
-    return order == Order::kStop ? now->pid == 0 : now->pid != 0 && now->pid != before.pid;
-  };
+  orders.cmds[0].cmd = pending.before.cmd;
+  orders.cmds[0].desired_runid = pending.before.actual_runid + (pending.order == Order::kStop ? 0 : 1);
+  orders.cmds[0].force_quit = pending.order == Order::kStop ? 1 : 0;
+  const std::vector<std::uint8_t> bytes = EncodeProcman(orders);
+  bus_->Publish(kPmOrders, bytes.data(), bytes.size());
+}
+
+void Sheriff::Tick() {
+  for (auto pending = pending_.begin(); pending != pending_.end();) {
+    if (Obeyed(pending->second) || Clock::now() - pending->second.begun > kLongest) {
+      pending = pending_.erase(pending);
+      continue;
+    }
+    if (Clock::now() - pending->second.sent > kRepeat) {
+      Send(pending->second);
+      pending->second.sent = Clock::now();
+    }
+    ++pending;
+  }
+}
+
+void Sheriff::Give(Order order, const std::string& id, std::chrono::milliseconds longest) {
+  Look(longest);
+  Begin(order, id);
   const auto end = Clock::now() + longest;
-  auto sent = Clock::time_point();
-  while (!obeyed()) {
-    if (Clock::now() > end)
-      throw std::runtime_error(deputy + " does not obey; `evit logs " + id + "` may say why");
-    if (Clock::now() - sent > kRepeat) {
-      orders.utime = HostMicroseconds();
-      const std::vector<std::uint8_t> bytes = EncodeProcman(orders);
-      bus_->Publish(kPmOrders, bytes.data(), bytes.size());
-      sent = Clock::now();
+  while (pending(id)) {
+    const Pending waiting = pending_.at(id);
+    Tick();
+    if (!pending(id) && Obeyed(waiting)) return;
+    if (!pending(id) || Clock::now() > end) {
+      pending_.erase(id);
+      throw std::runtime_error(waiting.deputy + " does not obey; `evit logs " + id + "` may say why");
     }
     bus_->Poll(20);
   }

@@ -58,6 +58,9 @@ LogReplay::LogReplay(const LogReplayOptions& options, Bus* bus, const Channels& 
         "nothing to replay: log " + options.log + " lasts from " + std::to_string(recording_.begin_utime()) +
         " to " + std::to_string(recording_.end_utime()) + " us, and the part asked for is not in it");
   }
+  // For whoever wants to seek.
+  status_.Counter("recording.begin_utime") = recording_.utime(begin_);
+  status_.Counter("recording.end_utime") = recording_.utime(end_ - 1);
   bus->Subscribe(channels.replay_control, [this](const std::string&, const std::uint8_t* data,
                                                  std::size_t size) { OnControl(data, size); });
   if (options.lossless) {
