@@ -1,0 +1,86 @@
+#include "tools/monitor/order_desk.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <stdexcept>
+
+#include "common/service/status_reporter.h"
+#include "common/wire/geometry_wire.h"
+
+namespace evit::monitor {
+namespace {
+
+std::optional<std::int64_t> Counter(const service_status_t& status, const char* name) {
+  const auto found = std::find(status.counter_name.begin(), status.counter_name.end(), name);
+  if (found == status.counter_name.end()) return std::nullopt;
+  return status.counter_value[static_cast<std::size_t>(found - status.counter_name.begin())];
+}
+
+}  // namespace
+
+OrderDesk::OrderDesk(Bus* bus, const Channels& channels, const PipelineWatch* watch,
+                     procman::Sheriff* sheriff)
+    : watch_(watch),
+      sheriff_(sheriff),
+      controls_(bus, channels.replay_control, NewEpoch()),
+      hints_(bus, channels.pose_hint, NewEpoch()) {}
+
+void OrderDesk::Control(std::int8_t command, std::int64_t seek_utime, double speed) {
+  if (watch_->services().count("log_replay") == 0) {
+    throw std::runtime_error("no log_replay has been heard: data come from elsewhere");
+  }
+  replay_control_t order{};
+  order.utime = HostTime();
+  order.command = command;
+  order.seek_utime = seek_utime;
+  order.speed = speed;
+  controls_.Send(&order);
+}
+
+std::string OrderDesk::Seek(double share) {
+  const auto replay = watch_->services().find("log_replay");
+  if (replay == watch_->services().end()) {
+    throw std::runtime_error("no log_replay has been heard: data come from elsewhere");
+  }
+  const auto begin = Counter(replay->second.status, "recording.begin_utime");
+  const auto end = Counter(replay->second.status, "recording.end_utime");
+  if (!begin || !end || *end < *begin) {
+    throw std::runtime_error("log_replay does not say what time its recording spans");
+  }
+  const auto length = static_cast<double>(*end - *begin);
+  Control(replay_control_t::SEEK, *begin + static_cast<std::int64_t>(share * length), 1);
+  char text[64];
+  std::snprintf(text, sizeof text, "replay continues at %.2f s", 1e-6 * share * length);
+  return text;
+}
+
+std::string OrderDesk::Give(const PageOrder& order) {
+  switch (order.kind) {
+    case PageOrder::Kind::kAcknowledge:
+      return "";
+    case PageOrder::Kind::kRestart:
+      sheriff_->Begin(procman::Sheriff::Order::kRestart, order.command);
+      return order.command + " is being restarted";
+    case PageOrder::Kind::kPause:
+      Control(replay_control_t::PAUSE, 0, 1);
+      return "replay paused";
+    case PageOrder::Kind::kResume:
+      Control(replay_control_t::RESUME, 0, 1);
+      return "replay goes on";
+    case PageOrder::Kind::kSeek:
+      return Seek(order.seek_share);
+    case PageOrder::Kind::kSpeed:
+      Control(replay_control_t::SPEED, 0, order.speed);
+      return "replay speed changed";
+    case PageOrder::Kind::kHint:
+      break;
+  }
+  body_pose_t hint{};
+  hint.utime = HostTime();
+  PutPose(order.T_map_body, &hint);
+  hints_.Send(&hint);
+  return "pose sent to the tracker";
+}
+
+}  // namespace evit::monitor

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "procman/sheriff.h"
+#include "tools/monitor/pipeline_watch.h"
+
+namespace evit::monitor {
+
+/// What there is to say beside the monitor's own figures.
+struct MonitorFigures {
+  bool read_only = false;
+  int viewers = 0;
+  std::string waiting;  // for a pipeline: why nothing comes; empty: connected to the bus
+};
+
+/// JSON for the page, "type": "status": services, processes, channels, camera and its mount, map, the monitor
+/// itself. `watch` and `sheriff` may be null while there is no bus.
+std::string StatusText(const PipelineWatch* watch, const procman::Sheriff* sheriff,
+                       const MonitorFigures& figures);
+
+/// "type": "mode": what the tracker is doing and why.
+std::string ModeText(const tracker_mode_t& mode);
+
+/// "type": "answer": to an order.
+std::string AnswerText(bool ok, const std::string& text);
+
+}  // namespace evit::monitor

@@ -1,0 +1,118 @@
+#include "tools/monitor/top_screen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include "common/service/status_reporter.h"
+
+namespace evit::monitor {
+namespace {
+
+constexpr char kPlain[] = "\x1b[0m", kDim[] = "\x1b[2m", kGood[] = "\x1b[1;34m",
+               kWait[] = "\x1b[1;33m", kBad[] = "\x1b[1;31m";
+constexpr double kSilentS = 3;  // services send STATUS once a second
+
+// Text from the bus must not steer the terminal.
+std::string Printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
+  }
+  return text;
+}
+
+struct Line {
+  const char* color;
+  std::string text;
+};
+
+[[gnu::format(printf, 1, 2)]] std::string Format(const char* format, ...) {
+  char text[512];
+  va_list values;
+  va_start(values, format);
+  std::vsnprintf(text, sizeof text, format, values);
+  va_end(values);
+  return text;
+}
+
+Line ModeLine(const PipelineWatch& watch) {
+  static constexpr const char* kNames[] = {"BOOTSTRAPPING", "TRACKING", "LOST"};
+  static constexpr const char* kColors[] = {kWait, kGood, kBad};
+  if (!watch.has_mode()) return {kWait, "no word of the tracker yet"};
+  const tracker_mode_t& mode = watch.mode();
+  return {kColors[mode.mode], std::string(kNames[mode.mode]) + "  " + Printable(mode.reason)};
+}
+
+const procman_lcm::cmd_status_t* ProcessOf(const procman::Sheriff& sheriff, const std::string& name) {
+  for (const auto& [deputy, info] : sheriff.deputies()) {
+    for (const auto& status : info.cmds) {
+      if (status.cmd.command_id == name) return &status;
+    }
+  }
+  return nullptr;
+}
+
+Line ServiceLine(const PipelineWatch::Service& service, const procman_lcm::cmd_status_t* process) {
+  const service_status_t& s = service.status;
+  const double age_s = 1e-6 * static_cast<double>(HostTime() - service.heard);
+  const bool silent = age_s > kSilentS;
+  const bool bad = silent || s.state == "failed" || s.state == "degraded";
+  std::string load = "                 ";
+  if (process != nullptr && process->pid != 0) {
+    load = Format("%5.0f %% %6.0f MB", 100.0 * static_cast<double>(process->cpu_usage),
+                  static_cast<double>(process->mem_rss_bytes) / (1 << 20));
+  }
+  const std::string state = silent ? Format("silent %.0f s", age_s) : Printable(s.state);
+  return {bad ? kBad : kPlain, Format("%-18s %-12s %s  ", Printable(s.service).substr(0, 40).c_str(),
+                                      state.substr(0, 40).c_str(), load.c_str()) +
+                                   Printable(s.detail)};
+}
+
+}  // namespace
+
+TopScreen::TopScreen(PipelineWatch* watch, const procman::Sheriff* sheriff)
+    : watch_(watch), sheriff_(sheriff) {
+  watch->AddListener(this);
+}
+
+void TopScreen::OnWindow(const window_state_t& window, double latency_ms) {
+  window_ = window;
+  latency_ms_ = latency_ms;
+}
+
+std::string TopScreen::Draw(int columns, int rows, bool color) const {
+  std::vector<Line> lines = {ModeLine(*watch_)};
+  const double* p = pose_.position;
+  const double* v = pose_.velocity;
+  lines.push_back({kPlain, Format("position %7.2f %7.2f %7.2f m   speed %5.2f m/s", p[0], p[1], p[2],
+                                  std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))});
+  const auto& c = window_.covariance;
+  const std::string latency = latency_ms_ < 0 ? "not in real time" : Format("%.0f ms", latency_ms_);
+  lines.push_back({kPlain, Format("sigma %5.1f mm   points %d, %.0f %% on edges   solve %.1f ms   latency %s",
+                                  1e3 * std::sqrt(std::max(0.0, c[0][0] + c[1][1] + c[2][2])), window_.n_points,
+                                  100 * window_.inlier_share, window_.solve_ms, latency.c_str())});
+  lines.push_back({kPlain, ""});
+  lines.push_back({kDim, "SERVICE            STATE            CPU    MEMORY"});
+  for (const auto& [name, service] : watch_->services()) {
+    lines.push_back(ServiceLine(service, ProcessOf(*sheriff_, name)));
+  }
+  lines.push_back({kPlain, ""});
+  lines.push_back({kDim, "CHANNEL                PER S   RECEIVED     LOST  INVALID"});
+  for (const auto& [name, f] : watch_->channels().channels()) {
+    lines.push_back({f.lost + f.invalid > 0 ? kWait : kPlain,
+                     Format("%-20s %7.0f %10lld %8lld %8lld", name.substr(0, 40).c_str(), f.rate_hz,
+                            static_cast<long long>(f.received), static_cast<long long>(f.lost),
+                            static_cast<long long>(f.invalid))});
+  }
+  std::string screen;
+  for (std::size_t i = 0; i < std::min(lines.size(), static_cast<std::size_t>(std::max(rows, 1))); ++i) {
+    const std::string text = lines[i].text.substr(0, static_cast<std::size_t>(std::max(columns, 1)));
+    screen += color ? std::string(lines[i].color) + text + kPlain + "\x1b[K\n" : text + "\n";
+  }
+  return screen;
+}
+
+}  // namespace evit::monitor

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+namespace evit::monitor {
+
+struct TopOptions {
+  std::string lcm_url, prefix;
+  bool once = false;  // one screen, as plain text, then the end
+};
+
+/// `evit top`: shows the pipeline in the terminal, four times a second, until SIGINT or SIGTERM; then the
+/// terminal is as it was. Where stdout is no terminal: as with `once`. Throws std::runtime_error where no
+/// pipeline runs on this host and no bus was named.
+void ShowTop(const TopOptions& options);
+
+}  // namespace evit::monitor
