@@ -1,0 +1,136 @@
+import uPlot from "uplot";
+import { color, element, onThemeChange } from "./dom";
+import type { WindowState } from "./frames";
+
+const SPAN_S = 60;
+const SHORTEST_S = 10; // shown, until there is more
+const REDRAW_MS = 300;
+
+interface Curve {
+  label: string;
+  color: string;
+  dash?: number[];
+  of: (state: WindowState) => number | null;
+}
+
+interface Plan {
+  title: string; // with its unit
+  curves: Curve[];
+}
+
+const norm = (v: number[]) => Math.hypot(...v);
+const sigma = (state: WindowState, i: number) => Math.sqrt(state.covariance[7 * i]!);
+// Okabe and Ito; dashes too, so that curves differ without colour.
+const [BLUE, ORANGE, GREEN] = ["#2f8fd0", "#d98b00", "#12a07a"];
+
+const xyz = (of: (state: WindowState) => number[]): Curve[] => [
+  { label: "x", color: BLUE, of: (s) => of(s)[0]! },
+  { label: "y", color: ORANGE, dash: [6, 3], of: (s) => of(s)[1]! },
+  { label: "z", color: GREEN, dash: [2, 2], of: (s) => of(s)[2]! },
+];
+
+const PLANS: Plan[] = [
+  { title: "Speed, m/s", curves: [{ label: "speed", color: BLUE, of: (s) => norm(s.velocity) }] },
+  {
+    title: "Position σ, mm",
+    curves: [{ label: "σ", color: BLUE, of: (s) => 1000 * norm([sigma(s, 0), sigma(s, 1), sigma(s, 2)]) }],
+  },
+  { title: "Gyro bias, rad/s", curves: xyz((s) => s.gyroBias) },
+  { title: "Accel. bias, m/s²", curves: xyz((s) => s.accelBias) },
+  {
+    title: "Time, ms",
+    curves: [
+      { label: "solve", color: BLUE, of: (s) => s.solveMs },
+      { label: "total", color: ORANGE, dash: [6, 3], of: (s) => s.totalMs },
+      { label: "latency", color: GREEN, dash: [2, 2], of: (s) => (s.latencyMs < 0 ? null : s.latencyMs) },
+    ],
+  },
+  { title: "Points on edges, %", curves: [{ label: "share", color: BLUE, of: (s) => 100 * s.inlierShare }] },
+];
+
+class Plot {
+  private plot: uPlot | null = null;
+  private readonly place: HTMLElement;
+
+  constructor(parent: HTMLElement, private readonly plan: Plan) {
+    const box = document.createElement("div");
+    box.className = "plot";
+    const title = document.createElement("h2");
+    title.textContent = plan.title;
+    if (plan.curves.length > 1) {
+      for (const curve of plan.curves) {
+        const name = document.createElement("b");
+        name.textContent = curve.label;
+        name.style.color = curve.color;
+        title.append(name);
+      }
+    }
+    this.place = document.createElement("div");
+    box.append(title, this.place);
+    parent.append(box);
+    new ResizeObserver(() => this.fit()).observe(box);
+    this.make();
+    onThemeChange(() => this.make());
+  }
+
+  draw(seconds: number[], states: WindowState[]): void {
+    const data = this.plan.curves.map((curve) => states.map(curve.of));
+    this.plot?.setData([seconds, ...data]);
+  }
+
+  private make(): void {
+    this.plot?.destroy();
+    const axis = { stroke: color("soft"), grid: { stroke: color("line"), width: 1 }, ticks: { show: false }, font: "10px system-ui" };
+    this.plot = new uPlot(
+      {
+        ...this.size(),
+        legend: { show: false },
+        cursor: { show: false },
+        scales: { x: { time: false, range: (_, min) => [Math.min(min ?? 0, -SHORTEST_S), 0] } },
+        axes: [
+          { ...axis, size: 22, values: (_, ticks) => ticks.map((t) => (t === 0 ? "now" : `${t} s`)), space: 45 },
+          { ...axis, size: 44, space: 26 },
+        ],
+        series: [{}, ...this.plan.curves.map((c) => ({ stroke: c.color, width: 1.5, dash: c.dash, points: { show: false } }))],
+      },
+      [[], ...this.plan.curves.map(() => [])],
+      this.place,
+    );
+  }
+
+  private size(): { width: number; height: number } {
+    return { width: Math.max(120, this.place.clientWidth), height: 158 };
+  }
+
+  private fit(): void {
+    this.plot?.setSize(this.size());
+  }
+}
+
+// The last minute of the window's states.
+export class Plots {
+  private readonly plots = PLANS.map((plan) => new Plot(element("plots"), plan));
+  private states: WindowState[] = [];
+  private changed = false;
+
+  constructor() {
+    setInterval(() => this.draw(), REDRAW_MS);
+  }
+
+  add(state: WindowState): void {
+    const last = this.states.at(-1);
+    if (last && state.utime <= last.utime) this.states = []; // the replay went back
+    this.states.push(state);
+    this.changed = true;
+  }
+
+  private draw(): void {
+    if (!this.changed || document.hidden) return;
+    this.changed = false;
+    const now = this.states.at(-1)!.utime;
+    const first = this.states.findIndex((state) => state.utime > now - 1e6 * SPAN_S);
+    this.states.splice(0, first);
+    const seconds = this.states.map((state) => 1e-6 * (state.utime - now));
+    for (const plot of this.plots) plot.draw(seconds, this.states);
+  }
+}

@@ -1,0 +1,56 @@
+import type { Order } from "./connection";
+import { element, setText } from "./dom";
+import type { Status } from "./status";
+
+const HOLD_MS = 1500; // after an order, until STATUS has caught up
+
+// Play, pause, speed and place of a replayed log.
+export class ReplayBar {
+  private readonly slider = element<HTMLInputElement>("seek");
+  private readonly button = element<HTMLButtonElement>("play");
+  private readonly speed = element<HTMLSelectElement>("replay-speed");
+  private paused = false;
+  private atEnd = false;
+  private heldUntil = 0;
+
+  constructor(private readonly send: (order: Order) => void) {
+    this.button.onclick = () => {
+      this.hold();
+      if (this.atEnd) {
+        this.atEnd = false;
+        this.send({ order: "seek", share: 0 });
+        return this.showPaused(false);
+      }
+      this.send({ order: this.paused ? "resume" : "pause" });
+      this.showPaused(!this.paused);
+    };
+    this.slider.oninput = () => this.hold();
+    this.slider.onchange = () => {
+      this.hold();
+      this.send({ order: "seek", share: Number(this.slider.value) / 1000 });
+    };
+    this.speed.onchange = () => this.send({ order: "speed", speed: Number(this.speed.value) });
+  }
+
+  show(status: Status): void {
+    const replay = status.services.find((service) => service.name === "log_replay");
+    const usable = !!replay && !status.read_only;
+    element("replay").classList.toggle("off", !usable);
+    for (const control of [this.slider, this.button, this.speed]) control.disabled = !usable;
+    if (!replay) return setText("place", "no replay");
+    setText("place", /[\d.]+ of [\d.]+ s/.exec(replay.detail)?.[0] ?? replay.state);
+    if (performance.now() < this.heldUntil) return;
+    this.atEnd = replay.progress >= 1;
+    this.showPaused(replay.state === "paused" || this.atEnd);
+    this.slider.value = String(Math.round(1000 * Math.max(0, replay.progress)));
+  }
+
+  private hold(): void {
+    this.heldUntil = performance.now() + HOLD_MS;
+  }
+
+  private showPaused(paused: boolean): void {
+    this.paused = paused;
+    this.button.textContent = paused ? "Play" : "Pause";
+  }
+}

@@ -1,0 +1,120 @@
+// The page in a real browser, with a real pipeline. Usage: node browser_test.mjs BINARIES SOURCES CHROMIUM
+import assert from "node:assert/strict";
+import { chromium } from "playwright-core";
+import { Pipeline, PORT, until } from "./pipeline.mjs";
+
+const [binaries, sources, executablePath] = process.argv.slice(2);
+const pipeline = new Pipeline(binaries, sources);
+const browser = await chromium.launch({
+  executablePath,
+  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage"],
+});
+const errors = [];
+let page;
+
+const text = (id) => page.textContent(`#${id}`);
+const step = (name) => console.log(`${((performance.now()) / 1000).toFixed(1)} s: ${name}`);
+const pidOf = (service) => page.getAttribute(`tr[data-service="${service}"]`, "data-pid").then(Number);
+const seek = (share) =>
+  page.evaluate((value) => {
+    const slider = document.querySelector("#seek");
+    slider.value = String(1000 * value);
+    slider.dispatchEvent(new Event("change"));
+  }, share);
+const placeOf = async () => Number(/^([\d.]+) of/.exec(await text("place"))?.[1] ?? NaN);
+
+async function test() {
+  let monitor = pipeline.monitor();
+  page = await browser.newPage({ viewport: { width: 800, height: 520 } });
+  page.on("pageerror", (error) => errors.push(error.message));
+  await until("the server", () => page.goto(`http://127.0.0.1:${PORT}/`).catch(() => null));
+  await until("the page to say that nothing runs", async () => (await text("reason")).includes("waiting for"));
+  step("the page is open, nothing runs");
+
+  // Every position that is shown, from now on.
+  await page.evaluate(() => {
+    window.positions = new Set();
+    const place = document.querySelector("#position");
+    new MutationObserver(() => window.positions.add(place.textContent)).observe(place, { childList: true, characterData: true, subtree: true });
+  });
+  const up = pipeline.up();
+  await until("poses", () => page.evaluate(() => window.positions.size >= 10));
+  await until("the whole map", async () => /^24,060 of 24,060/.test(await text("about")));
+  await until("the picture", async () => (await text("surface-info")).includes("decay"));
+  step("connected during a run: the pose moves");
+
+  await until("the end", async () => (await text("play")) === "Play");
+  await page.click("#play"); // from the beginning
+  await until("the first second again", async () => (await placeOf()) < 2.5);
+  await page.click("#play");
+  await until("the pause", async () => (await page.getAttribute('tr[data-service="log_replay"] .state', "data-kind")) === "wait");
+  const held = await placeOf();
+  await seek(0.5);
+  await until("the place sought", async () => Math.abs((await placeOf()) - 1.5) < 0.1);
+  assert.notEqual(held, 1.5);
+  step("paused and sought");
+
+  // A pose by mouse: press, drag, send.
+  await page.click("#hint");
+  const before = await page.inputValue("#hint-x");
+  const box = await page.locator("#map").boundingBox();
+  await page.mouse.move(box.x + 0.3 * box.width, box.y + 0.7 * box.height);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.5 * box.height, { steps: 4 });
+  await page.mouse.up();
+  assert.notEqual(await page.inputValue("#hint-x"), before);
+  await page.click("#hint-send");
+  await until("the answer to a hint", async () => (await text("answer")).includes("pose sent"));
+  step("gave a pose by mouse");
+
+  // The right one, from the beginning: it tracks again.
+  const [x, y, z, qx, qy, qz, qw] = pipeline.start.split(" ").map(Number);
+  await seek(0);
+  await page.click("#play");
+  await page.evaluate(
+    (order) =>
+      new Promise((done) => {
+        const socket = new WebSocket(`ws://${location.host}/`, "evit-monitor.v1");
+        socket.onopen = () => socket.send(JSON.stringify(order));
+        socket.onmessage = (event) => typeof event.data === "string" && event.data.includes('"answer"') && (socket.close(), done());
+      }),
+    { order: "hint", position: [x, y, z], orientation: [qx, qy, qz, qw] },
+  );
+  step("a second viewer came and went");
+
+  for (const service of ["map_server", "frame_builder", "window_optimizer", "log_replay"]) {
+    const pid = await until(`the process of ${service}`, () => pidOf(service));
+    process.kill(pid, "SIGKILL");
+    await until(`${service} again`, async () => ![0, pid].includes(await pidOf(service)));
+  }
+  step("each service died and was seen again");
+  const pid = await pidOf("map_server");
+  await page.click('tr[data-service="map_server"] button');
+  await until("the restart that was ordered", async () => ![0, pid].includes(await pidOf("map_server")));
+  step("restarted a service by its button");
+
+  process.kill(Pipeline.childrenOf(monitor.pid)[0], "SIGKILL");
+  await until("the page to notice", async () => (await text("reason")).includes("does not answer"));
+  await until("the page again", async () => !(await text("reason")).includes("does not answer"));
+  monitor.kill("SIGTERM");
+  await until("the page to notice", async () => (await text("reason")).includes("does not answer"));
+  assert.equal(await new Promise((done) => (monitor.exitCode !== null ? done(monitor.exitCode) : monitor.on("exit", done))), 0);
+  monitor = pipeline.monitor("--read-only");
+  await until("the page again", async () => (await text("about")).includes("read-only"));
+  assert.ok(await page.isDisabled("#play"));
+  step("the monitor's worker died, the monitor was stopped and started again");
+  up.kill("SIGTERM");
+}
+
+let failed = true;
+try {
+  await test();
+  assert.deepEqual(errors, []);
+  failed = false;
+} catch (error) {
+  console.log(error.stack, errors, `\noutput of the programs:\n${pipeline.output}`);
+} finally {
+  await browser.close();
+  await pipeline.end();
+}
+process.exit(failed ? 1 : 0);
