@@ -19,9 +19,12 @@ void AddEvalCommand(CLI::App* app);
 void AddCalibrateCommand(CLI::App* app);
 void AddOverlapCommand(CLI::App* app);
 void AddDoctorCommand(CLI::App* app);
+void AddRenderCommand(CLI::App* app);
 void AddRunCommand(CLI::App* app);
 /// show, check.
 void AddConfigCommand(CLI::App* app);
+void AddMonitorCommand(CLI::App* app);
+void AddTopCommand(CLI::App* app);
 void AddPaperCommand(CLI::App* app);
 void AddUpCommand(CLI::App* app);
 /// ps, start, stop, restart, logs.

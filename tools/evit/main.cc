@@ -39,6 +39,9 @@ int Main(int argc, char** argv) {
   evit::commands::AddPaperCommand(&app);
   evit::commands::AddUpCommand(&app);
   evit::commands::AddProcmanCommands(&app);
+  evit::commands::AddMonitorCommand(&app);
+  evit::commands::AddTopCommand(&app);
+  evit::commands::AddRenderCommand(&app);
   try {
     RequireKnownCommand(app, argc, argv);
     app.parse(argc, argv);

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
 #include "tools/evit/place_options.h"
+#include "tools/monitor/monitor_child.h"
 #include "tools/run/run.h"
 
 namespace evit::commands {
@@ -40,7 +42,8 @@ void AddRunCommand(CLI::App* app) {
   struct Options {
     run::RunJob job;
     std::string pose, from, seconds;
-    bool realtime = false, lossless = false;
+    bool realtime = false, lossless = false, monitor = false;
+    monitor::MonitorOptions page;
   };
   auto o = std::make_shared<Options>();
   CLI::App* run =
@@ -74,6 +77,11 @@ void AddRunCommand(CLI::App* app) {
   run->add_option("--seconds", o->seconds, "A:B in s, play only this part of the log");
   run->add_option("--record", o->job.record,
                   "LCM log to write the keyframes (surfaces, IMU) and windows to, 15 to 30 MB/s");
+  run->add_flag("--monitor", o->monitor,
+                "Show it in the browser while it runs, and its end until Ctrl-C (see evit monitor)");
+  run->add_option("--monitor-port", o->page.web.port, "Port of that page")
+      ->check(CLI::Range(1, 65535))
+      ->capture_default_str();
   run->add_option("--lcm-url", o->job.lcm_url,
                   "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
   run->add_option("--prefix", o->job.prefix, "Prefix of all channels, so that several pipelines share a bus");
@@ -93,8 +101,23 @@ void AddRunCommand(CLI::App* app) {
     if (job.play.loops > 1 && !job.initial_pose && job.initial_from.empty())
       throw std::runtime_error("--loops needs --initial-pose or --initial-from: each loop starts there");
     job.command = CommandLineOfThis();
+    std::optional<monitor::MonitorChild> shown;
+    if (o->monitor) {
+      o->page.map = job.map;
+      o->page.rig = job.rig;
+      o->page.prefix = job.prefix;
+      shown.emplace(o->page, job.lcm_url);
+      std::printf("monitor: %s\n", monitor::PageUrl(o->page).c_str());
+      std::fflush(stdout);
+      monitor::OpenBrowser(monitor::PageUrl(o->page));
+    }
     const int code = run::Run(job);
     if (code == 2) SayWhy(job);
+    if (shown && code != 130) {
+      std::printf("the run is over; the monitor shows its end until Ctrl-C\n");
+      std::fflush(stdout);
+      shown->WaitForSignal();
+    }
     if (code != 0) throw CLI::RuntimeError(code);
   });
 }
