@@ -4,17 +4,18 @@ namespace evit::simulation {
 namespace {
 
 void ApplySensor(SimulationSettings* s) {
-  s->optics.blur_px = 0.8;
+  s->optics.blur_px = 0.7;
   s->optics.saturation_grey = 235;
   s->sensor.low_pass_ms = 0.5;
   s->sensor.bright_grey = 150;
+  s->sensor.threshold = 0.4;
   s->sensor.threshold_spread = 0.2;
   s->sensor.threshold_drift = 0.05;
-  s->sensor.leak_hz = 0.1;
+  s->sensor.leak_hz = 0.05;
   s->sensor.refractory_ms = 0.5;
-  s->sensor.noise_hz = 2;
+  s->sensor.noise_hz = 0.1;
   s->sensor.hot_pixels = 30;
-  s->readout.burst_share = 0.2;
+  s->readout.burst_share = 0.1;
   s->readout.burst_gap_ms = 0.5;
   s->readout.rate_hz = 30e6;
   s->imu.vibration_accel = 0.1;
