@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -16,6 +17,7 @@
 
 #include "common/evaluation/covariance_file.h"
 #include "common/evaluation/trajectory_error.h"
+#include "common/map/map_file.h"
 #include "tests/helpers/paths.h"
 
 namespace evit {
@@ -124,13 +126,16 @@ class WholeSystemTest : public ::testing::Test {
     return "-f '^" + service + " .*" + folder_.string() + "/'";
   }
   std::string RunCommand(const std::string& out, const std::string& more = "") const {
+    return PlaceCommand(out, "sample_map.pcd") + " --initial-from " + kLogs + "sample_truth.tum " + more;
+  }
+  // Without a start pose.
+  std::string PlaceCommand(const std::string& out, const std::string& map) const {
     for (const char* file : {"sample_map.pcd", "rig.textproto"}) {
       fs::copy_file(kLogs + file, Path(file), fs::copy_options::skip_existing);
     }
     // What others find a run by is the test's own too.
     return "XDG_RUNTIME_DIR=" + folder_.string() + " " + kEvit + " run --log " + kLogs +
-           "sample.lcmlog --map " + Path("sample_map.pcd") + " --rig " + Path("rig.textproto") +
-           " --initial-from " + kLogs + "sample_truth.tum --out " + Path(out) + " " + more;
+           "sample.lcmlog --map " + Path(map) + " --rig " + Path("rig.textproto") + " --out " + Path(out);
   }
   static void ExpectGood(const std::string& trajectory, double max_position, double max_degrees) {
     const TrajectoryError error =
@@ -181,6 +186,35 @@ TEST_F(WholeSystemTest, SurvivesMapServerCrashes) {
   ASSERT_EQ(result.code, 0) << result.output;
   EXPECT_GE(Restarts("killed"), 1) << result.output;
   ExpectGood(Path("killed/trajectory.tum"), 0.015, 0.6);
+}
+
+// Nobody says where it begins, and map_server dies while it searches.
+TEST_F(WholeSystemTest, FindsItsPlaceWithoutAStartPose) {
+  const Result result =
+      RunAndKill(PlaceCommand("found", "sample_map.pcd"), "map_server", 1, std::chrono::milliseconds(400));
+  ASSERT_EQ(result.code, 0) << result.output;
+  EXPECT_GE(Restarts("found"), 1) << result.output;
+  const Trajectory truth = ReadTum(kLogs + "sample_truth.tum");
+  const Trajectory online = ReadTum(Path("found/trajectory.tum"));
+  ASSERT_FALSE(online.empty());
+  EXPECT_LT(online.front().t, truth.front().t + 2'000'000);
+  for (const StampedPose& pose : online) {
+    SE3 there;
+    if (!PoseAt(truth, pose.t, &there)) continue;
+    EXPECT_LT((pose.pose.p - there.p).norm(), 0.1) << pose.t;
+    EXPECT_LT(AngularDistance(pose.pose.q, there.q), 0.05) << pose.t;
+  }
+}
+
+TEST_F(WholeSystemTest, InAMirroredMapItClaimsNoPose) {
+  PointMap map = LoadMap(kLogs + "sample_map.pcd").map;
+  for (Eigen::Vector3f& p : map.points) p.y() = -p.y();
+  WritePcd(Path("mirrored.pcd"), map);
+  const Result result = Shell(PlaceCommand("refused", "mirrored.pcd"));
+  EXPECT_EQ(result.code, 2) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("looking for the place"));
+  const std::string poses = ReadAll(Path("refused/trajectory.tum"));
+  EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 1) << poses;  // its heading
 }
 
 TEST_F(WholeSystemTest, RunningPipelineCanBeListedAndCommanded) {

@@ -64,7 +64,8 @@ class Neighbours {
     const auto begin = std::lower_bound(keyed_.begin(), keyed_.end(), std::make_pair(key, std::int32_t{0}));
     auto end = begin;
     while (end != keyed_.end() && end->first == key) ++end;
-    const std::ptrdiff_t stride = std::max<std::ptrdiff_t>(1, (end - begin) / static_cast<std::ptrdiff_t>(kMost));
+    const std::ptrdiff_t stride =
+        std::max<std::ptrdiff_t>(1, (end - begin) / static_cast<std::ptrdiff_t>(kMost));
     for (auto it = begin; it < end; it += std::min(stride, std::max<std::ptrdiff_t>(1, end - it))) {
       const Eigen::Vector3f& p = map_.points[it->second];
       if ((p - at).squaredNorm() < radius_ * radius_) near->push_back(p);

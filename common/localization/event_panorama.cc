@@ -10,15 +10,16 @@ namespace {
 
 using namespace panorama;  // NOLINT(google-build-using-namespace): this file is about nothing else
 
-constexpr int kWidth = 320;        // pixels that the surface is reduced to at least
-constexpr double kLively = 0.97;   // share of pixels with less events around than one on an edge
+constexpr int kWidth = 320;            // pixels that the surface is reduced to at least
+constexpr double kLively = 0.97;       // share of pixels with less events around than one on an edge
 constexpr float kLeastWeight = 0.05F;  // of such a pixel, 0..1: below it there are no edges, only noise
-constexpr float kRecent = 0.4F;    // of that weight, from which a pixel counts as lying on an edge
-constexpr double kCoherent = 0.3;  // 0..1: from which the gradients around a pixel agree on a direction
-constexpr double kEnough = 0.35;   // of a place's width, in pixels that are on an edge: an edge goes across
-constexpr int kReach = 2;          // places: farther from an edge than that is nowhere near
-constexpr double kFade = 1.2;      // places: standard deviation of nearness
-constexpr double kScale = 30;      // gain of 1 as a whole number: a thousand of them fit into 16 bits
+constexpr float kRecent = 0.4F;        // of that weight, from which a pixel counts as lying on an edge
+constexpr double kCoherent = 0.3;      // 0..1: from which the gradients around a pixel agree on a direction
+constexpr double kEnough = 0.35;    // of a place's width, in pixels that are on an edge: an edge goes across
+constexpr double kNarrowest = 0.3;  // of a place on the horizon: narrower ones count as if they were so wide
+constexpr int kReach = 2;           // places: farther from an edge than that is nowhere near
+constexpr double kFade = 1.2;       // places: standard deviation of nearness
+constexpr double kScale = 30;       // gain of 1 as a whole number: a thousand of them fit into 16 bits
 
 using Pictures = std::vector<std::array<float, kColumns>>;  // kStackedRows
 
@@ -36,7 +37,8 @@ cv::Mat WeightsOf(const cv::Mat& image) {
   return weights;
 }
 
-// The weight of pixels on an edge: what the liveliest of them have. A slow or poor sensor has less everywhere.
+// The weight of pixels on an edge: what the liveliest of them have. A slow or poor sensor has less
+// everywhere.
 float FullWeight(const cv::Mat& weights) {
   std::vector<float> all(weights.begin<float>(), weights.end<float>());
   const auto at = all.begin() + static_cast<std::ptrdiff_t>(kLively * static_cast<double>(all.size()));
@@ -105,6 +107,77 @@ Pictures Nearness(const Pictures& held) {
   return near;
 }
 
+// What a keyframe shows, place by place.
+struct Seen {
+  Pictures held{kStackedRows};  // how much of an edge each place holds
+  std::vector<std::array<bool, kColumns>> in_sight{kRows};
+};
+
+// The pixels of a surface on the sphere around an upright viewer.
+class Projection {
+ public:
+  Projection(const Camera& camera, const Eigen::Quaterniond& R_up_camera, int factor)
+      : camera_(camera), R_(R_up_camera.toRotationMatrix().cast<float>()), factor_(factor) {}
+
+  // Direction of pixel (u, v) of the reduced image; false where the lens sees nothing there.
+  bool Ray(double u, double v, Eigen::Vector3f* ray) const {
+    Eigen::Vector3d in_camera;
+    if (!camera_.Unproject({u * factor_, v * factor_}, &in_camera)) return false;
+    *ray = R_ * in_camera.cast<float>();
+    return true;
+  }
+
+ private:
+  const Camera& camera_;
+  Eigen::Matrix3f R_;
+  int factor_;
+};
+
+Seen Look(const cv::Mat& image, const Projection& projection) {
+  Seen seen;
+  const EdgeImage edges = EdgesOf(image);
+  const cv::Mat weights = WeightsOf(image);
+  const float full = FullWeight(weights);
+  for (int v = 0; v < image.rows; ++v) {
+    for (int u = 0; u < image.cols; ++u) {
+      Eigen::Vector3f d, beside;
+      if (!projection.Ray(u, v, &d)) continue;
+      const int at = PlaceOf(d.x(), d.y(), d.z());
+      seen.in_sight[at / kColumns][at % kColumns] = true;
+      const float weight = weights.at<float>(v, u) / full, angle = edges.angle.at<float>(v, u);
+      if (weight < kRecent || !projection.Ray(u + std::cos(angle), v + std::sin(angle), &beside)) continue;
+      const Eigen::Vector3f along = beside - d;
+      Vote(LineAt(d.x(), d.y(), d.z(), along.x(), along.y(), along.z()),
+           edges.coherence.at<float>(v, u) > kCoherent, at, std::min(1.0F, weight), &seen.held);
+    }
+  }
+  return seen;
+}
+
+// From pixels to shares of an edge that goes across: 1 is one or more. `width`: of a place on the horizon,
+// pixels. Places are narrower towards the poles, and so is what they hold.
+void Normalise(double width, Pictures* held) {
+  for (std::size_t r = 0; r < held->size(); ++r) {
+    const double row = static_cast<double>(r % kRows) + 0.5;
+    const double shrink = std::max(kNarrowest, std::cos(row * kBin - kPi / 2));
+    for (float& value : (*held)[r])
+      value = std::min(1.0F, value / static_cast<float>(kEnough * width * shrink));
+  }
+}
+
+// Mean of a picture over what is in sight.
+double MeanInSight(const Pictures& near, const Seen& seen, int direction) {
+  double sum = 0, n = 0;
+  for (int r = 0; r < kRows; ++r) {
+    for (int c = 0; c < kColumns; ++c) {
+      if (!seen.in_sight[r][c]) continue;
+      sum += near[direction * kRows + r][c];
+      n += 1;
+    }
+  }
+  return n > 0 ? sum / n : 0;
+}
+
 }  // namespace
 
 EventPanorama::EventPanorama(const cv::Mat& surface, const Camera& camera,
@@ -112,65 +185,25 @@ EventPanorama::EventPanorama(const cv::Mat& surface, const Camera& camera,
     : gain_(kStackedRows), sight_(kRows) {
   int factor = 1;
   const cv::Mat image = Reduced(surface, &factor);
-  const EdgeImage edges = EdgesOf(image);
-  const cv::Mat weights = WeightsOf(image);
-  const float full = FullWeight(weights);
-  const Eigen::Matrix3f R = R_up_camera.toRotationMatrix().cast<float>();
-  Pictures held(kStackedRows);
-  std::vector<std::array<bool, kColumns>> seen(kRows);
-  const auto ray = [&](double u, double v, Eigen::Vector3f* out) {
-    Eigen::Vector3d in_camera;
-    if (!camera.Unproject({u * factor, v * factor}, &in_camera)) return false;
-    *out = R * in_camera.cast<float>();
-    return true;
-  };
-  for (int v = 0; v < image.rows; ++v) {
-    for (int u = 0; u < image.cols; ++u) {
-      Eigen::Vector3f d, beside;
-      if (!ray(u, v, &d)) continue;
-      const int at = PlaceOf(d.x(), d.y(), d.z());
-      seen[at / kColumns][at % kColumns] = true;
-      const float weight = weights.at<float>(v, u) / full;
-      if (weight < kRecent) continue;
-      const float angle = edges.angle.at<float>(v, u);
-      if (!ray(u + std::cos(angle), v + std::sin(angle), &beside)) continue;
-      const Eigen::Vector3f along = beside - d;
-      Vote(LineAt(d.x(), d.y(), d.z(), along.x(), along.y(), along.z()),
-           edges.coherence.at<float>(v, u) > kCoherent, at, std::min(1.0F, weight), &held);
-    }
-  }
-  const double place_px = kBin * camera.fx / factor;
-  for (std::size_t r = 0; r < held.size(); ++r) {
-    // Places are narrower towards the poles, and so is what they hold.
-    const double row = static_cast<double>(r % kRows) + 0.5;
-    const double shrink = std::max(0.05, std::cos(row * kBin - kPi / 2));
-    for (float& value : held[r])
-      value = std::min(1.0F, value / static_cast<float>(kEnough * place_px * std::max(shrink, 0.3)));
-  }
-  const Pictures near = Nearness(held);
+  Seen seen = Look(image, Projection(camera, R_up_camera, factor));
+  Normalise(kBin * camera.fx / factor, &seen.held);
+  const Pictures near = Nearness(seen.held);
   double squares = 0, places = 0;
   for (int d = 0; d <= kDirections; ++d) {
-    double sum = 0, n = 0;
+    const double mean = MeanInSight(near, seen, d);
     for (int r = 0; r < kRows; ++r) {
       for (int c = 0; c < kColumns; ++c) {
-        if (!seen[r][c]) continue;
-        sum += near[d * kRows + r][c];
-        n += 1;
-        if (d == kAnyDirection && held[d * kRows + r][c] > 0.5F) ++occupied_;
-      }
-    }
-    const double mean = n > 0 ? sum / n : 0;
-    for (int r = 0; r < kRows; ++r) {
-      for (int c = 0; c < kColumns; ++c) {
-        const double gain = seen[r][c] ? near[d * kRows + r][c] - mean : 0;
+        if (!seen.in_sight[r][c]) continue;
+        const double gain = near[d * kRows + r][c] - mean;
         squares += gain * gain;
-        places += seen[r][c] ? 1 : 0;
+        places += 1;
+        occupied_ += d == kAnyDirection && seen.held[d * kRows + r][c] > 0.5F ? 1 : 0;
+        row_in_sight_[r] = true;
         // Column c is met by an edge at column e where the yaw is e - c, and so lies at -c in the row.
         const int back = (kColumns - c) % kColumns;
         for (const int at : {back, back + kColumns}) {
           gain_[d * kRows + r][at] = static_cast<std::int16_t>(std::lround(kScale * gain));
-          sight_[r][at] = seen[r][c] ? 1 : 0;
-          row_in_sight_[r] = row_in_sight_[r] || seen[r][c];
+          sight_[r][at] = 1;
         }
       }
     }

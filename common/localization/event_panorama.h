@@ -11,11 +11,12 @@
 namespace evit {
 
 /// A keyframe's events as an upright viewer saw them, at azimuth 0 what lies ahead of R_up_camera: for each
-/// direction of edges how near the next events are, made ready to be compared with the map at all yaws at once.
+/// direction of edges how near the next events are, made ready to be compared with the map at all yaws at
+/// once.
 class EventPanorama {
  public:
-  /// `surface`: negated time surface (SurfaceField), of that camera. `R_up_camera`: its rotation in an upright
-  /// frame, z up, of any azimuth.
+  /// `surface`: negated time surface (SurfaceField), of that camera. `R_up_camera`: its rotation in an
+  /// upright frame, z up, of any azimuth.
   EventPanorama(const cv::Mat& surface, const Camera& camera, const Eigen::Quaterniond& R_up_camera);
 
   /// What an edge of the map at (stacked row, column) is worth where the viewer is turned by yaw bin

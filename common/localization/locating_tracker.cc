@@ -15,7 +15,8 @@ AlignmentPoints PointsAllOver(const Camera& camera, const SE3& T_body_camera) {
   for (int v = 0; v < kSpeedGrid; ++v) {
     for (int u = 0; u < kSpeedGrid; ++u) {
       Eigen::Vector3d ray;
-      if (camera.Unproject({(u + 0.5) * camera.width / kSpeedGrid, (v + 0.5) * camera.height / kSpeedGrid}, &ray))
+      if (camera.Unproject({(u + 0.5) * camera.width / kSpeedGrid, (v + 0.5) * camera.height / kSpeedGrid},
+                           &ray))
         points.emplace_back((T_body_camera * ray).cast<float>());
     }
   }

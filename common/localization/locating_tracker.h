@@ -53,9 +53,9 @@ class LocatingTracker final : public MapTracker {
   AlignmentSettings alignment_;
   AlignmentPoints far_;  // points all over the image, to tell how fast it moves by the gyro
   bool searching_;
-  TrackerMode mode_ = TrackerMode::kBootstrapping;        // while searching
-  Utime time_ = 0;                                        // us: of the newest keyframe
-  Utime lost_since_ = 0;                                  // us; 0: not lost
+  TrackerMode mode_ = TrackerMode::kBootstrapping;  // while searching
+  Utime time_ = 0;                                  // us: of the newest keyframe
+  Utime lost_since_ = 0;                            // us; 0: not lost
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s, body frame
 };
 

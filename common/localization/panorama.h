@@ -12,9 +12,9 @@
 namespace evit::panorama {
 
 inline constexpr double kPi = 3.14159265358979323846;
-inline constexpr int kColumns = 128;               // 2.8 degrees each
-inline constexpr int kRows = 64;                   // 2.8 degrees each
-inline constexpr int kDirections = 4;              // of an edge in the picture: 45 degrees each, of 180
+inline constexpr int kColumns = 128;                // 2.8 degrees each
+inline constexpr int kRows = 64;                    // 2.8 degrees each
+inline constexpr int kDirections = 4;               // of an edge in the picture: 45 degrees each, of 180
 inline constexpr double kBin = 2 * kPi / kColumns;  // rad, of both
 
 /// One picture for each direction, and one of edges in whatever direction: all of them below each other.

@@ -39,7 +39,8 @@ TEST(Panorama, DirectionsOfLevelAndUprightEdges) {
 TEST(EdgePoints, LinesHaveTheirDirection) {
   PointMap map;
   for (int k = 0; k < 200; ++k) map.points.emplace_back(0.01F * static_cast<float>(k), 1.0F, 2.0F);
-  for (int k = 0; k < 30; ++k) map.points.emplace_back(5.0F + static_cast<float>(k), 7.0F, 2.0F);  // far apart
+  for (int k = 0; k < 30; ++k)
+    map.points.emplace_back(5.0F + static_cast<float>(k), 7.0F, 2.0F);  // far apart
   const std::vector<EdgePoint> edges = ThinEdges(map, {});
   int lines = 0;
   for (const EdgePoint& e : edges) {
@@ -69,7 +70,10 @@ TEST(InParallel, DoesAllOnceAndPassesOnWhatIsThrown) {
   std::vector<int> done(1000);
   InParallel(3, done.size(), [&](std::size_t k) { ++done[k]; });
   EXPECT_EQ(done, std::vector<int>(1000, 1));
-  EXPECT_THROW(InParallel(2, 50, [](std::size_t k) { if (k == 7) throw std::runtime_error("seven"); }),
+  EXPECT_THROW(InParallel(2, 50,
+                          [](std::size_t k) {
+                            if (k == 7) throw std::runtime_error("seven");
+                          }),
                std::runtime_error);
 }
 

@@ -82,7 +82,8 @@ std::vector<PlaceCandidate> PlaceFinder::Refined(const PlaceQuery& query, const 
   return refined;
 }
 
-std::vector<PlaceCandidate> PlaceFinder::Everywhere(const PlaceQuery& query, const SurfaceField& field) const {
+std::vector<PlaceCandidate> PlaceFinder::Everywhere(const PlaceQuery& query,
+                                                    const SurfaceField& field) const {
   const auto R_up_body = Eigen::Quaterniond::FromTwoVectors(query.up_body, Eigen::Vector3d::UnitZ());
   const EventPanorama panorama(query.surface, rig_.camera, R_up_body * rig_.T_body_camera.q);
   if (panorama.occupied() < kFewestPlaces) return {};

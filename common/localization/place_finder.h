@@ -13,15 +13,15 @@
 namespace evit {
 
 struct PlaceFinderOptions {
-  std::size_t matches = 48;     // places whose image is compared, after their panoramas
-  std::size_t candidates = 8;   // in the answer to a search everywhere, at most
-  std::size_t points = 900;     // of the map, to compare an image by
+  std::size_t matches = 48;    // places whose image is compared, after their panoramas
+  std::size_t candidates = 8;  // in the answer to a search everywhere, at most
+  std::size_t points = 900;    // of the map, to compare an image by
   int threads = 2;
 };
 
-/// Where in a map a keyframe may have been seen: all places and yaws by their panoramas (PlaceIndex), the best
-/// of them by aligning the map with the image (Localize, SearchStart). Keeps no state but the map: the same
-/// query has the same answer, whatever the number of threads.
+/// Where in a map a keyframe may have been seen: all places and yaws by their panoramas (PlaceIndex), the
+/// best of them by aligning the map with the image (Localize, SearchStart). Keeps no state but the map: the
+/// same query has the same answer, whatever the number of threads.
 class PlaceFinder {
  public:
   /// `map` and `index`, of the same map, must outlive this.

@@ -82,7 +82,8 @@ TEST(PlaceFinder, HypothesesAreRefinedInTheirOrder) {
   const PointMap& map = room.index.map();
   PlaceQuery query = QueryFrom(map, kHere);
   query.everywhere = false;
-  const SE3 away(ExpSO3({0, 0, -1}), {-0.5, 0.5, 0}), near = kHere.Plus((Vector6d() << 0.03, 0, 0.02, 0, 0.02, 0).finished());
+  const SE3 away(ExpSO3({0, 0, -1}), {-0.5, 0.5, 0}),
+      near = kHere.Plus((Vector6d() << 0.03, 0, 0.02, 0, 0.02, 0).finished());
   query.hypotheses = {away, near};
   const std::vector<PlaceCandidate> places = room.finder.Answer(query);
   ASSERT_GE(places.size(), 2U);
@@ -107,8 +108,9 @@ TEST(PlaceIndex, NoMorePlacesThanAllowedAndItCanBeStopped) {
   EXPECT_LE(index.places().size(), 200U);
   EXPECT_GT(index.places().size(), 50U);
   EXPECT_GT(index.spacing(), 0.35);
-  EXPECT_THROW(PlaceIndex(synthetic::WalledRoom(1), options, [](double) { throw std::runtime_error("stop"); }),
-               std::runtime_error);
+  EXPECT_THROW(
+      PlaceIndex(synthetic::WalledRoom(1), options, [](double) { throw std::runtime_error("stop"); }),
+      std::runtime_error);
 }
 
 }  // namespace

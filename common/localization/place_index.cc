@@ -14,7 +14,7 @@ namespace {
 
 using namespace panorama;  // NOLINT(google-build-using-namespace): this file is about nothing else
 
-constexpr std::size_t kBlock = 256;  // places that a thread takes at a time
+constexpr std::size_t kBlock = 256;                // places that a thread takes at a time
 constexpr float kBehind = 1.15F, kBehindM = 0.1F;  // farther by that much than what lies around it: hidden
 
 // Place in the panorama and distance (0: out of range) of each point.
@@ -53,9 +53,9 @@ class View {
       if (depths_[k] <= 0 || depths_[k] > kBehind * horizon_[places_[k]] + kBehindM) continue;
       const Eigen::Vector3f d = edges_[k].at - at;
       const Eigen::Vector3f& along = edges_[k].along;
-      const int direction =
-          along.isZero() ? kAnyDirection
-                         : DirectionBin(LineAt(d.x(), d.y(), d.z(), along.x(), along.y(), along.z()));
+      const int direction = along.isZero()
+                                ? kAnyDirection
+                                : DirectionBin(LineAt(d.x(), d.y(), d.z(), along.x(), along.y(), along.z()));
       const auto bit = static_cast<std::uint8_t>(1U << direction);
       if ((held[places_[k]] & bit) != 0) continue;
       held[places_[k]] |= bit;
@@ -103,7 +103,7 @@ class View {
   float near2_, far2_;
   PointArrays points_;
   std::vector<std::int32_t> places_;  // of each edge
-  std::vector<float> depths_;          // m; 0: out of range
+  std::vector<float> depths_;         // m; 0: out of range
   std::array<float, kRows * kColumns> nearest_, horizon_;
 };
 

@@ -31,11 +31,12 @@ class PlaceIndex {
     std::uint16_t column : 7;
   };
   struct Place {
-    Eigen::Vector3f at;    // map frame, m
+    Eigen::Vector3f at;        // map frame, m
     std::uint32_t begin, end;  // its edges
   };
 
-  /// `progress`: called now and then with the share done, 0..1, by one thread at a time; may throw, which stops it.
+  /// `progress`: called now and then with the share done, 0..1, by one thread at a time; may throw, which
+  /// stops it.
   explicit PlaceIndex(const PointMap& map, const PlaceIndexOptions& options = {},
                       const std::function<void(double)>& progress = nullptr);
 

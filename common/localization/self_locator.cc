@@ -12,21 +12,15 @@
 namespace evit {
 namespace {
 
-constexpr Utime kPatience = 3'000'000;   // us: keyframes kept while an answer is awaited
-constexpr Utime kRetry = 200'000;        // us between searches everywhere that found nothing worth following
-constexpr double kFits = 3.5;            // significance of a step that fits
-constexpr int kMaxWeak = 2;              // steps in a row that do not, before a hypothesis is dropped
-constexpr double kSame = 0.03;           // m, rad: two hypotheses in one valley
-constexpr double kVelocityGain = 0.6;    // of what a step says of the velocity
-constexpr double kViewDepth = 1.5;       // m: what lies there moves over the image as by this turn
-constexpr double kUnsureUp = 0.05;       // rad: from which the next search tries another vertical
-constexpr double kPoseSigma = 0.01;      // m, rad: of an event-only pose, for the alignment with the IMU
-
-double MeanSince(const std::vector<double>& values, std::size_t begin) {
-  double sum = 0;
-  for (std::size_t k = begin; k < values.size(); ++k) sum += values[k];
-  return values.size() > begin ? sum / static_cast<double>(values.size() - begin) : 0;
-}
+constexpr Utime kPatience = 3'000'000;  // us: keyframes kept while an answer is awaited
+constexpr Utime kRetry = 200'000;       // us between searches everywhere that found nothing worth following
+constexpr double kFits = 3.5;           // significance of a step that fits
+constexpr int kMaxWeak = 2;             // steps in a row that do not, before a hypothesis is dropped
+constexpr double kSame = 0.03;          // m, rad: two hypotheses in one valley
+constexpr double kVelocityGain = 0.6;   // of what a step says of the velocity
+constexpr double kViewDepth = 1.5;      // m: what lies there moves over the image as by this turn
+constexpr double kUnsureUp = 0.05;      // rad: from which the next search tries another vertical
+constexpr double kPoseSigma = 0.01;     // m, rad: of an event-only pose, for the alignment with the IMU
 
 bool SamePose(const SE3& a, const SE3& b) {
   return (a.p - b.p).norm() < kSame && AngularDistance(a.q, b.q) < kSame;
@@ -103,7 +97,8 @@ void SelfLocator::AskNext() {
     AskEverywhere(view, predicted);
     if (question_) return;
   }
-  question_ = PlaceQuery{++asked_, view.t, view.surface, Eigen::Vector3d::UnitZ(), false, std::move(predicted), {}};
+  question_ =
+      PlaceQuery{++asked_, view.t, view.surface, Eigen::Vector3d::UnitZ(), false, std::move(predicted), {}};
 }
 
 void SelfLocator::AskEverywhere(const View& view, std::vector<SE3> hypotheses) {
@@ -115,8 +110,8 @@ void SelfLocator::AskEverywhere(const View& view, std::vector<SE3> hypotheses) {
     return;
   }
   searched_ = view.t;
-  question_ = PlaceQuery{++asked_, view.t, view.surface, Tilted(upright, asked_),
-                         true,     std::move(hypotheses), options_.prior};
+  question_ = PlaceQuery{
+      ++asked_, view.t, view.surface, Tilted(upright, asked_), true, std::move(hypotheses), options_.prior};
   if (hypotheses_.empty()) progress_ = "searching the whole map";
 }
 
@@ -176,22 +171,20 @@ void SelfLocator::DropWeak() {
   if (hypotheses_.size() > options_.max_hypotheses) hypotheses_.resize(options_.max_hypotheses);
 }
 
+double SelfLocator::Hypothesis::Mean(std::size_t newest) const {
+  const std::size_t n = std::min(newest, steps.size());
+  double sum = 0;
+  for (std::size_t k = steps.size() - n; k < steps.size(); ++k) sum += steps[k].significance;
+  return sum / static_cast<double>(n);
+}
+
 // Those that explain the keyframes nearly as well as `best`, each over the time that it has been followed.
 std::size_t SelfLocator::Rivals(const Hypothesis& best) const {
-  std::vector<double> of_best;
-  for (const Step& s : best.steps) of_best.push_back(s.significance);
-  std::size_t rivals = 0;
-  for (const Hypothesis& h : hypotheses_) {
-    if (&h == &best) continue;
-    std::vector<double> of_h;
-    for (const Step& s : h.steps) of_h.push_back(s.significance);
-    const std::size_t common = std::min(of_h.size(), of_best.size());
-    if (MeanSince(of_h, of_h.size() - common) >
-        MeanSince(of_best, of_best.size() - common) - options_.least_lead) {
-      ++rivals;
-    }
-  }
-  return rivals;
+  return static_cast<std::size_t>(
+      std::count_if(hypotheses_.begin(), hypotheses_.end(), [&](const Hypothesis& h) {
+        const std::size_t common = std::min(h.steps.size(), best.steps.size());
+        return &h != &best && h.Mean(common) > best.Mean(common) - options_.least_lead;
+      }));
 }
 
 void SelfLocator::Decide() {
@@ -199,30 +192,25 @@ void SelfLocator::Decide() {
     progress_ = "nothing in the map looks like what the events show";
     return;
   }
-  std::vector<double> means;
-  for (const Hypothesis& h : hypotheses_) {
-    double sum = 0;
-    for (const Step& s : h.steps) sum += s.significance;
-    means.push_back(sum / static_cast<double>(h.steps.size()));
-  }
-  const auto at = std::max_element(means.begin(), means.end()) - means.begin();
-  const Hypothesis& best = hypotheses_[static_cast<std::size_t>(at)];
-  double turn = 0, since = ToSeconds(best.steps.back().t - best.steps.front().t);
+  const Hypothesis& best =
+      *std::max_element(hypotheses_.begin(), hypotheses_.end(),
+                        [](const Hypothesis& a, const Hypothesis& b) { return a.Mean() < b.Mean(); });
+  const double since = ToSeconds(best.steps.back().t - best.steps.front().t);
+  double turn = 0;
   for (std::size_t k = 1; k < best.steps.size(); ++k) {
     const SE3 &a = best.steps[k - 1].T_map_body, &b = best.steps[k].T_map_body;
     turn += AngularDistance(a.q, b.q) + (b.p - a.p).norm() / kViewDepth;
   }
-  const std::size_t rivals = Rivals(best);
   progress_ = FormatText("following %zu places, the best for %.1f s at a significance of %.1f",
-                         hypotheses_.size(), since, means[static_cast<std::size_t>(at)]);
+                         hypotheses_.size(), since, best.Mean());
   if (since < options_.follow_s || static_cast<int>(best.steps.size()) < options_.least_steps ||
       turn < options_.least_turn || best.weak > 0) {
     return;
   }
   const double least =
       since < 2 * options_.follow_s ? options_.least_significance : options_.patient_significance;
-  if (means[static_cast<std::size_t>(at)] < least) return;
-  if (rivals > 0) {
+  if (best.Mean() < least) return;
+  if (const std::size_t rivals = Rivals(best); rivals > 0) {
     progress_ = FormatText("ambiguous: %zu places look alike", rivals + 1);
     return;
   }
@@ -260,8 +248,7 @@ std::optional<BodyState> SelfLocator::Found() const {
   BodyState state = found_state_;
   const std::vector<ImuSample> since = ImuBetween(found_->t, imu_.back().t);
   if (since.size() < 2) return state;
-  const NavState now =
-      PropagateImu({state.T_map_body, state.velocity}, since, state.bias, rig_.gravity);
+  const NavState now = PropagateImu({state.T_map_body, state.velocity}, since, state.bias, rig_.gravity);
   state.T_map_body = now.T_map_body;
   state.velocity = now.velocity;
   return state;
@@ -272,14 +259,11 @@ std::string SelfLocator::Progress() const { return progress_; }
 std::vector<PlaceCandidate> SelfLocator::Followed() const {
   std::vector<PlaceCandidate> followed;
   for (const Hypothesis& h : hypotheses_) {
-    double sum = 0;
-    for (const Step& s : h.steps) sum += s.significance;
-    followed.push_back(
-        {h.state.T_map_body, sum / static_cast<double>(h.steps.size()), h.likeness, h.n_points});
+    followed.push_back({h.state.T_map_body, h.Mean(), h.likeness, h.n_points});
   }
-  std::stable_sort(
-      followed.begin(), followed.end(),
-      [](const PlaceCandidate& a, const PlaceCandidate& b) { return a.significance > b.significance; });
+  std::stable_sort(followed.begin(), followed.end(), [](const PlaceCandidate& a, const PlaceCandidate& b) {
+    return a.significance > b.significance;
+  });
   return followed;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,11 +16,11 @@ namespace evit {
 
 struct SelfLocatorOptions {
   PlacePrior prior;
-  double up_s = 3;          // of IMU samples at most that tell which way is up
-  double least_up_s = 0.5;  // of them, before the first question
-  double step_ms = 50;      // between keyframes that hypotheses are followed over
-  double follow_s = 0.5;    // that a hypothesis must explain
-  int least_steps = 8;      // in that time
+  double up_s = 3;                  // of IMU samples at most that tell which way is up
+  double least_up_s = 0.5;          // of them, before the first question
+  double step_ms = 50;              // between keyframes that hypotheses are followed over
+  double follow_s = 0.5;            // that a hypothesis must explain
+  int least_steps = 8;              // in that time
   double least_turn = 0.05;         // rad: of the view, by turning and moving, in that time
   double least_significance = 6;    // of one that counts as found, mean over its keyframes
   double patient_significance = 5;  // the same, once it has been followed for twice as long
@@ -30,8 +31,8 @@ struct SelfLocatorOptions {
 };
 
 /// Finds out where it is without being told: asks where a keyframe may have been seen (PlaceQuery), moves the
-/// answers along with the IMU, has each fitted to the next keyframes, and believes the one that alone explains
-/// them for long enough, and that the accelerometer agrees with.
+/// answers along with the IMU, has each fitted to the next keyframes, and believes the one that alone
+/// explains them for long enough, and that the accelerometer agrees with.
 ///
 /// Knows nothing of who answers and when. Answers may be late, as long as it holds the keyframes since (3 s).
 class SelfLocator {
@@ -64,6 +65,9 @@ class SelfLocator {
   struct Hypothesis {
     BodyState state;  // at its last step
     std::vector<Step> steps;
+    /// Significance over the newest steps.
+    double Mean(std::size_t newest = std::numeric_limits<std::size_t>::max()) const;
+
     int weak = 0;  // last steps in a row that did not fit
     double likeness = 0;
     int n_points = 0;
@@ -91,7 +95,7 @@ class SelfLocator {
   std::optional<PlaceQuery> question_;
   std::vector<Hypothesis> hypotheses_;
   Utime last_view_ = 0;  // us: of the newest keyframe that was kept
-  Utime searched_ = 0;  // us: keyframe of the last search everywhere; 0: none yet
+  Utime searched_ = 0;   // us: keyframe of the last search everywhere; 0: none yet
   std::int64_t asked_ = 0;
   std::optional<Step> found_;
   BodyState found_state_;

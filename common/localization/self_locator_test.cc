@@ -104,7 +104,8 @@ TEST_F(SelfLocatorTest, AnswersMayComeLate) {
     locator_->AddKeyframe(Keyframe(map, now_, now_ == 1'000'000));
     if (asked == 0 && locator_->question() != nullptr) asked = now_;
     if (asked == 0 || now_ < asked + 800'000) continue;  // the first search takes 0.8 s
-    while (const PlaceQuery* question = locator_->question()) locator_->AddAnswer(room.finder.Answer(*question));
+    while (const PlaceQuery* question = locator_->question())
+      locator_->AddAnswer(room.finder.Answer(*question));
   }
   ASSERT_TRUE(locator_->Found());
   EXPECT_LE(now_, 2'600'000);  // it has caught up on the keyframes since

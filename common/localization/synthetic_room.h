@@ -9,8 +9,8 @@
 
 namespace evit::synthetic {
 
-/// Segments on the walls of a room of 4 x 4 x 2.4 m around the origin. `copies` 2: its second half is the first,
-/// turned by 180 degrees about the vertical.
+/// Segments on the walls of a room of 4 x 4 x 2.4 m around the origin. `copies` 2: its second half is the
+/// first, turned by 180 degrees about the vertical.
 inline PointMap WalledRoom(unsigned seed, int copies = 1) {
   std::mt19937 rng(seed);
   std::uniform_real_distribution<float> u(-1, 1);

@@ -14,9 +14,9 @@ struct Upright {
 };
 
 /// From the samples of the last second or so: specific forces, turned into the last sample's frame by the
-/// gyro, and averaged with weights that rise and fall smoothly (Hann). Of the acceleration of a body that goes
-/// to and fro such a mean keeps the difference of two mean velocities, where a plain mean keeps that of two
-/// momentary ones: of hand-held motion a third of the error.
+/// gyro, and averaged with weights that rise and fall smoothly (Hann). Of the acceleration of a body that
+/// goes to and fro such a mean keeps the difference of two mean velocities, where a plain mean keeps that of
+/// two momentary ones: of hand-held motion a third of the error.
 ///
 /// `sigma` is what the readings themselves say: by how much the means of the window's halves differ.
 /// Not known: fewer than ten samples, less than 0.1 s, or a mean that is no gravity (a fall, a wrong unit).

@@ -32,7 +32,8 @@ TEST(Upright, LongerIsSurerWhereTheBodyGoesToAndFro) {
   synthetic::Motion motion;
   motion.amplitude = 0.4;
   double brief = 0, longer = 0;
-  for (double t = 4; t < 8; t += 0.25) brief += ErrorDegrees(motion, t, 1), longer += ErrorDegrees(motion, t, 3);
+  for (double t = 4; t < 8; t += 0.25)
+    brief += ErrorDegrees(motion, t, 1), longer += ErrorDegrees(motion, t, 3);
   EXPECT_LT(longer, 0.6 * brief);
   EXPECT_LT(longer / 16, 5);
 }

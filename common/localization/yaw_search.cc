@@ -12,9 +12,9 @@ namespace {
 
 using namespace panorama;  // NOLINT(google-build-using-namespace): this file is about nothing else
 
-constexpr int kFewest = 30;     // edges in sight: fewer say nothing
+constexpr int kFewest = 30;  // edges in sight: fewer say nothing
 constexpr int kPeaks = 3;    // yaws of one place
-constexpr int kApart = 3;       // yaw bins between them
+constexpr int kApart = 3;    // yaw bins between them
 
 struct Sums {
   std::array<std::int16_t, kColumns> gain, sight;
@@ -81,9 +81,8 @@ std::vector<PlaceMatch> BestMatches(const PlaceIndex& index, const EventPanorama
   std::vector<PlaceMatch> best;
   for (const PlaceMatch& match : all) {
     if (best.size() == count) break;
-    const bool known = std::any_of(best.begin(), best.end(), [&](const PlaceMatch& b) {
-      return Neighbours(b, match, index.spacing());
-    });
+    const bool known = std::any_of(
+        best.begin(), best.end(), [&](const PlaceMatch& b) { return Neighbours(b, match, index.spacing()); });
     if (!known) best.push_back(match);
   }
   return best;

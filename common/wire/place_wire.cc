@@ -35,8 +35,7 @@ place_query_t ToMessage(const PlaceQuery& query, const Rig& rig) {
   m.yaw = prior.heading ? prior.heading->yaw : 0;
   m.yaw_tolerance = prior.heading ? prior.heading->tolerance : -1;
   m.n = static_cast<std::int32_t>(query.hypotheses.size());
-  for (const SE3& pose : query.hypotheses)
-    PushPose(pose, &m.hypothesis_position, &m.hypothesis_orientation);
+  for (const SE3& pose : query.hypotheses) PushPose(pose, &m.hypothesis_position, &m.hypothesis_orientation);
   const cv::Mat surface = query.surface.isContinuous() ? query.surface : query.surface.clone();
   m.surface_size = static_cast<std::int32_t>(surface.total());
   m.surface.assign(surface.data, surface.data + surface.total());
@@ -81,7 +80,8 @@ places_t ToMessage(const std::vector<PlaceCandidate>& places) {
 std::vector<PlaceCandidate> PlacesOf(const places_t& m) {
   std::vector<PlaceCandidate> places;
   for (std::size_t k = 0; k < m.position.size(); ++k)
-    places.push_back({PoseOf(m.position[k], m.orientation[k]), m.significance[k], m.likeness[k], m.n_points[k]});
+    places.push_back(
+        {PoseOf(m.position[k], m.orientation[k]), m.significance[k], m.likeness[k], m.n_points[k]});
   return places;
 }
 

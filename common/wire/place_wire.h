@@ -7,8 +7,8 @@
 #include "evit/place_query_t.hpp"
 #include "evit/places_t.hpp"
 
-/// Questions for places and their answers. Incoming messages must have been checked (DecodeChecked); utime of the
-/// answer, seq and epoch are the caller's.
+/// Questions for places and their answers. Incoming messages must have been checked (DecodeChecked); utime of
+/// the answer, seq and epoch are the caller's.
 namespace evit {
 
 /// `rig`: what the keyframe was seen with.

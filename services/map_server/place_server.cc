@@ -58,7 +58,8 @@ void PlaceServer::MakeIndex() {
 }
 
 std::optional<places_t> PlaceServer::Answer(const place_query_t& message) {
-  // What a place is like does not depend on how its points are weighted later: the defaults serve every tracker.
+  // What a place is like does not depend on how its points are weighted later: the defaults serve every
+  // tracker.
   const PlaceFinder finder(*map_, *index_, RigOf(message), PointOptions(), WindowOptions());
   places_t answer = ToMessage(finder.Answer(FromMessage(message)));
   answer.utime = message.utime;

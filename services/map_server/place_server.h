@@ -19,10 +19,10 @@
 
 namespace evit {
 
-/// The part of map_server that says where in the map a keyframe may have been seen from: PLACE_QUERY in, PLACES
-/// out. Works in a thread of its own, one question at a time, so that MAP_QUERY does not wait; who does not ask
-/// pays nothing. The index of places is made at the first question, or ahead of it with Prepare(). As stateless
-/// as the rest: an answer depends on map and question alone.
+/// The part of map_server that says where in the map a keyframe may have been seen from: PLACE_QUERY in,
+/// PLACES out. Works in a thread of its own, one question at a time, so that MAP_QUERY does not wait; who
+/// does not ask pays nothing. The index of places is made at the first question, or ahead of it with
+/// Prepare(). As stateless as the rest: an answer depends on map and question alone.
 class PlaceServer {
  public:
   /// `bus`, `status`, which it counts in, and `map` must outlive this.
@@ -50,8 +50,9 @@ class PlaceServer {
   std::atomic<double> prepared_{0};          // 0..1: of the index
   std::atomic<bool> stopping_{false};
   std::optional<place_query_t> waiting_;
-  std::pair<std::int64_t, std::int64_t> in_work_{-1, -1}, answered_{-1, -1};  // epoch and number of a question
-  std::vector<std::uint8_t> buffer_;                                          // the last answer
+  std::pair<std::int64_t, std::int64_t> in_work_{-1, -1},
+      answered_{-1, -1};              // epoch and number of a question
+  std::vector<std::uint8_t> buffer_;  // the last answer
   std::int64_t seq_ = 0;
   std::future<std::optional<places_t>> work_;  // last member: the thread ends before anything else is gone
 };

@@ -20,7 +20,8 @@ class PlaceClient {
   using Clock = std::chrono::steady_clock;
 
   /// `bus` and `status` must outlive this.
-  PlaceClient(Bus* bus, const Channels& channels, StatusReporter* status, const Rig& rig, Clock::time_point now);
+  PlaceClient(Bus* bus, const Channels& channels, StatusReporter* status, const Rig& rig,
+              Clock::time_point now);
 
   /// `tracker` at rest: gives it the answer, where one has come, and asks what it asks now.
   void Serve(MapTracker* tracker, Clock::time_point now);

@@ -21,6 +21,7 @@ void AddOverlapCommand(CLI::App* app);
 void AddDoctorCommand(CLI::App* app);
 void AddRenderCommand(CLI::App* app);
 void AddRunCommand(CLI::App* app);
+void AddLocateCommand(CLI::App* app);
 /// show, check.
 void AddConfigCommand(CLI::App* app);
 void AddMonitorCommand(CLI::App* app);

@@ -31,6 +31,7 @@ int Main(int argc, char** argv) {
   evit::commands::AddMapCommand(&app);
   evit::commands::AddSimulateCommand(&app);
   evit::commands::AddRunCommand(&app);
+  evit::commands::AddLocateCommand(&app);
   evit::commands::AddEvalCommand(&app);
   evit::commands::AddCalibrateCommand(&app);
   evit::commands::AddOverlapCommand(&app);

@@ -34,6 +34,13 @@ bool ParseTremor(const std::string& text, simulation::Tremor* tremor) {
   return ParseNumbers(text, {&tremor->hz, &tremor->mm, &tremor->deg});
 }
 
+bool ParseCarry(const std::string& text, simulation::Carry* carry) {
+  double degrees = 0;
+  if (!ParseNumbers(text, {&carry->from_s, &carry->to_s, &carry->dx, &carry->dy, &degrees})) return false;
+  carry->yaw = degrees * 3.14159265358979 / 180;
+  return carry->from_s >= 0 && carry->to_s >= carry->from_s + 0.5;
+}
+
 bool ParseHoles(const std::string& text, simulation::MapHoles* holes) {
   return ParseNumbers(text, {&holes->share, &holes->diameter_m});
 }
@@ -138,6 +145,14 @@ void SimulateOptions::AddMotion(CLI::App* command) {
         simulation::Tremor tremor;
         return ParseTremor(text, &tremor);
       }));
+  group
+      .Add("--carry", &carry_,
+           "Between A and B (s, half a second apart or more) the lens is covered and the rig carried away: "
+           "X and Y m on, turned by DEG about the vertical")
+      ->check(Form("A:B:X:Y:DEG", "A:B:X:Y:DEG, e.g. 2:3.5:1.5:-1:120", [](const std::string& text) {
+        simulation::Carry carry;
+        return ParseCarry(text, &carry);
+      }));
   group.Add("--motion-seed", &s.variant, "Variant of a builtin trajectory, from 1");
   group.Add("--trajectory-frame", &frame_, "What the file's poses are")
       ->check(CLI::IsMember({"auto", "body", "marker-yup"}));
@@ -213,6 +228,7 @@ simulation::SimulationSettings SimulateOptions::Settings() const {
   if (frame_ == "marker-yup") s.trajectory.frame = simulation::TrajectoryFrame::kMarkerYUp;
   if (!seconds_.empty()) ParseRange(seconds_, &s.trajectory.begin_s, &s.trajectory.end_s);
   if (!tremor_.empty()) ParseTremor(tremor_, &s.trajectory.tremor);
+  if (!carry_.empty()) ParseCarry(carry_, &s.trajectory.carry);
   if (!holes_.empty()) ParseHoles(holes_, &s.map.holes);
   if (!dark_.empty()) ParseRange(dark_, &s.disturbances.dark_from_s, &s.disturbances.dark_to_s);
   if (!lamp_.empty()) ParseRange(lamp_, &s.disturbances.lamp_off_s, &s.disturbances.lamp_on_s);

@@ -50,6 +50,7 @@ std::vector<procman::ProcmanCommand> CommandsOf(const procman::Deployment& deplo
 // What evit.procman needs beside what only the user can know.
 void SetDefaults(const std::filesystem::path& logs) {
   setenv("EVIT_CONFIG", DataFile("config/tracker.textproto").c_str(), 0);
+  setenv("EVIT_START", "", 0);  // the place is looked for
   if (std::getenv("EVIT_STATE") != nullptr) return;
   // For restarts of services: an earlier deployment's state is none of this one's.
   const std::filesystem::path state = logs / "state";

@@ -110,6 +110,7 @@ Motion LoadMotion(const MotionSettings& settings, const Rig& rig) {
   Trajectory poses = settings.source.rfind(kBuiltin, 0) == 0 ? MakeBuiltin(settings, rig, &motion)
                                                              : ReadRecorded(settings, rig, &motion);
   if (settings.play_speed != 1) PlayFaster(settings.play_speed, &poses, &motion);
+  CarryAway(settings.carry, motion.begin, &poses);
   motion.spline = PoseSpline::Fit(poses, settings.knot_ms * 1e-3);
   motion.begin = std::max(motion.begin, motion.spline.begin());
   motion.end = std::min(motion.end, motion.spline.end());

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "tools/simulation/carry.h"
 #include "tools/simulation/trajectory_frame.h"
 #include "tools/simulation/tremor.h"
 
@@ -17,6 +18,7 @@ struct MotionSettings {
   double play_speed = 1;          // over 1: the same way in less time
   std::uint64_t variant = 1;      // builtin: another motion of the same kind for each
   Tremor tremor;                  // on top of the motion
+  Carry carry;                    // the same
   std::uint64_t tremor_seed = 1;
   double knot_ms = 33;  // spacing of the spline's knots
 };

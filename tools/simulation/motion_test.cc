@@ -67,6 +67,28 @@ TEST(BuiltinMotion, FirstVariantStaysWhatItWas) {
   }
 }
 
+TEST(Carry, MovesOnSmoothlyAndStaysThere) {
+  Trajectory poses = MakeBuiltinMotion(*FindBuiltinMotion("robot_normal"), 4, 1, TestRig());
+  const Trajectory before = poses;
+  const Utime begin = poses.front().t;
+  CarryAway({1, 2.5, 1.5, -0.5, 2}, begin, &poses);
+  SE3 a, b, end_a, end_b;
+  ASSERT_TRUE(PoseAt(before, begin + 900'000, &a) && PoseAt(poses, begin + 900'000, &b));
+  EXPECT_EQ(a.p, b.p);
+  EXPECT_EQ(a.q.coeffs(), b.q.coeffs());
+  ASSERT_TRUE(PoseAt(before, begin + 1'000'000, &a));
+  for (const Utime t : {2'600'000, 3'900'000}) {
+    ASSERT_TRUE(PoseAt(before, begin + t, &end_a) && PoseAt(poses, begin + t, &end_b));
+    const Eigen::Quaterniond turn = ExpSO3({0, 0, 2});
+    EXPECT_LT(AngularDistance(end_b.q, turn * end_a.q), 1e-9);
+    EXPECT_LT((end_b.p - (a.p + turn * (end_a.p - a.p) + Eigen::Vector3d(1.5, -0.5, 0))).norm(), 0.005);
+  }
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    const double dt = ToSeconds(poses[k].t - poses[k - 1].t);
+    EXPECT_LT((poses[k].pose.p - poses[k - 1].pose.p).norm() / dt, 4);  // m/s: nothing jumps
+  }
+}
+
 TEST(BuiltinMotion, HasTheSpeedsOfItsNameAndStaysInTheRoom) {
   const Rig rig = TestRig();
   const Scene scene = MakeRoom(1);

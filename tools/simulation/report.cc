@@ -82,6 +82,9 @@ void WriteReport(const std::string& path, const SimulationSettings& settings, co
   json.Number("variant", static_cast<double>(settings.trajectory.variant));
   const Tremor& tremor = settings.trajectory.tremor;
   json.Number("tremor_hz", tremor.hz).Number("tremor_mm", tremor.mm).Number("tremor_deg", tremor.deg);
+  const Carry& carry = settings.trajectory.carry;
+  json.Number("carry_from_s", carry.from_s).Number("carry_to_s", carry.to_s);
+  json.Number("carry_dx", carry.dx).Number("carry_dy", carry.dy).Number("carry_yaw", carry.yaw);
   json.Number("speed_mean_m_s", s.motion_speed.mean).Number("speed_p99_m_s", s.motion_speed.p99);
   json.Number("rate_mean_rad_s", s.motion_speed.turn_mean).Number("rate_p99_rad_s", s.motion_speed.turn_p99);
   json.Number("fit_rms_m", s.motion.fit_rms_m).Number("fit_rms_deg", s.motion.fit_rms_deg).Close();

@@ -61,6 +61,8 @@ void Check(const SimulationSettings& s, const Rig& rig) {
           "holes in the map must be 0.01 to 10 m large");
   require(s.disturbances.dark_to_s >= s.disturbances.dark_from_s,
           "the lens must be covered before it is free again");
+  require(!s.trajectory.carry.any() || s.disturbances.dark_to_s == s.disturbances.dark_from_s,
+          "who carries the rig away covers the lens: leave the other darkness out");
   require(s.disturbances.lamp_share > 0 && s.disturbances.lamp_on_s >= s.disturbances.lamp_off_s,
           "lamp must go off before it comes on, to a share over 0");
   require(s.threads >= 1 && s.threads <= 256, "threads must be 1 to 256");
@@ -167,8 +169,9 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
   disturbances.lamp.off = stamp(settings.disturbances.lamp_off_s);
   disturbances.lamp.on = stamp(settings.disturbances.lamp_on_s);
   disturbances.lamp.share = settings.disturbances.lamp_share;
-  disturbances.cover.from = stamp(settings.disturbances.dark_from_s);
-  disturbances.cover.to = stamp(settings.disturbances.dark_to_s);
+  const Carry& carry = settings.trajectory.carry;
+  disturbances.cover.from = stamp(carry.any() ? carry.from_s : settings.disturbances.dark_from_s);
+  disturbances.cover.to = stamp(carry.any() ? carry.to_s : settings.disturbances.dark_to_s);
   std::unique_ptr<MovingBox> box;
   if (settings.disturbances.moving_box)
     box = std::make_unique<MovingBox>(settings.seed, motion.spline, rig, motion.begin, motion.end);

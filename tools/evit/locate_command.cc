@@ -1,0 +1,154 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "common/config/rig_file.h"
+#include "common/config/settings_file.h"
+#include "common/evaluation/trajectory.h"
+#include "common/localization/prior_text.h"
+#include "tools/evit/commands.h"
+#include "tools/evit/place_options.h"
+#include "tools/locate/candidates_picture.h"
+#include "tools/locate/locator_run.h"
+
+namespace evit::commands {
+namespace {
+
+constexpr double kRightM = 0.1, kRightDegrees = 3;  // a pose that counts as right
+constexpr double kDegree = 3.14159265358979 / 180;
+
+struct LocateOptions {
+  std::string log, map, rig, config, truth, picture;
+  run::PlaceTexts place;
+  double at = 0, seconds = 5;
+  int starts = 0;
+};
+
+double YawDegrees(const SE3& pose) {
+  const Eigen::Vector3d x = pose.q * Eigen::Vector3d::UnitX();
+  return std::atan2(x.y(), x.x()) / kDegree;
+}
+
+void PrintCandidates(const std::vector<PlaceCandidate>& candidates) {
+  std::printf("%10s %8s %8s %8s %13s %9s\n", "x m", "y m", "z m", "yaw deg", "significance", "likeness");
+  for (const PlaceCandidate& c : candidates) {
+    const Eigen::Vector3d& p = c.T_map_body.p;
+    std::printf("%10.2f %8.2f %8.2f %8.0f %13.1f %9.1f\n", p.x(), p.y(), p.z(), YawDegrees(c.T_map_body),
+                c.significance, c.likeness);
+  }
+}
+
+// How far off a result is, for a person; `right`: whether it counts as such.
+std::string Compared(const locate::LocatorResult& result, const Trajectory& truth, bool* right) {
+  SE3 pose;
+  if (!PoseAt(truth, result.t, &pose)) return "no truth then";
+  const double m = (result.T_map_body.p - pose.p).norm();
+  const double degrees = AngularDistance(result.T_map_body.q, pose.q) / kDegree;
+  *right = m < kRightM && degrees < kRightDegrees;
+  char text[80];
+  std::snprintf(text, sizeof text, "%.1f cm, %.2f deg off: %s", 100 * m, degrees, *right ? "right" : "WRONG");
+  return text;
+}
+
+// One start after the other, evenly over the recording. False: one was wrong.
+bool LocateOften(const LocateOptions& o, const locate::RecordedStreams& streams,
+                 const std::function<locate::LocatorResult(Utime)>& run) {
+  const Trajectory truth = ReadTum(o.truth);
+  int found = 0, wrong = 0, within = 0;
+  double search = 0, cpu = 0;
+  const double span = ToSeconds(streams.end() - streams.begin()) - 1.5;  // less is no time to be sure
+  if (span <= 0) throw std::runtime_error(o.log + ": is shorter than 1.5 s: leave --starts out");
+  for (int k = 0; k < o.starts; ++k) {
+    const double at = span * (k + 0.5) / o.starts;
+    const locate::LocatorResult result = run(streams.begin() + static_cast<Utime>(at * 1e6));
+    bool right = false;
+    const std::string text = result.found ? Compared(result, truth, &right) : result.progress;
+    found += right ? 1 : 0;
+    within += right && result.after_s <= 2 ? 1 : 0;
+    wrong += result.found && !right ? 1 : 0;
+    search += result.search_s;
+    cpu += result.cpu_s;
+    std::printf("start at %6.2f s: %s after %.2f s; %s\n", at, result.found ? "found" : "not found",
+                result.after_s, text.c_str());
+    std::fflush(stdout);
+  }
+  std::printf("starts %d right %d within_2s %d wrong %d search_s %.2f cpu_s %.2f\n", o.starts, found, within,
+              wrong, search / o.starts, cpu / o.starts);
+  return wrong == 0;
+}
+
+int Locate(const LocateOptions& o) {
+  const Rig rig = LoadRig(o.rig);
+  const PipelineOptions options = LoadOptions(o.config);
+  LocatingTracker::Options locating;
+  locating.search.prior = ParsePlacePrior(o.place.near, o.place.height, o.place.yaw);
+  const int threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 4);
+  const locate::RecordedStreams streams(o.log);
+  const locate::PreparedMap map = locate::PrepareMap(o.map, threads);
+  std::printf("%zu places, %.1f MB\n", map.places->places().size(),
+              1e-6 * static_cast<double>(map.places->MemoryBytes()));
+  std::fflush(stdout);
+  const auto run = [&](Utime begin) {
+    return locate::RunLocator(streams, map, rig, options, locating, begin, o.seconds, threads);
+  };
+  if (o.starts > 0) return LocateOften(o, streams, run) ? 0 : 2;
+  const Utime begin = streams.begin() + static_cast<Utime>(o.at * 1e6);
+  if (begin >= streams.end()) throw std::runtime_error("--at: the log ends before that");
+  const locate::LocatorResult result = run(begin);
+  PrintCandidates(result.candidates);
+  if (!o.picture.empty() && !result.candidates.empty()) {
+    locate::WriteCandidates(o.picture, result.surface, *map.map, rig, result.candidates);
+    std::printf("picture: %s\n", o.picture.c_str());
+  }
+  if (!result.found) {
+    std::printf("not found within %.2f s: %s\n", result.after_s, result.progress.c_str());
+    return 2;
+  }
+  const std::string line = TumLine({0, result.T_map_body});
+  std::printf("found after %.2f s: --initial-pose \"%s\"\n", result.after_s,
+              line.substr(line.find(' ') + 1).c_str());
+  bool right = true;
+  if (!o.truth.empty()) std::printf("%s\n", Compared(result, ReadTum(o.truth), &right).c_str());
+  return right ? 0 : 2;
+}
+
+}  // namespace
+
+void AddLocateCommand(CLI::App* app) {
+  auto o = std::make_shared<LocateOptions>();
+  CLI::App* locate =
+      app->add_subcommand("locate", "Where in the map does a recording begin, or was at a time?");
+  locate->add_option("--log", o->log, "LCM log with EVENTS and IMU (evit import)")->required();
+  locate->add_option("--map", o->map, "Semi-dense map: PCD, PLY or text, metres, z up")->required();
+  locate->add_option("--rig", o->rig, "Calibration, e.g. config/vector/rig.textproto")->required();
+  locate->add_option("--config", o->config, "Tracker settings (default: EVIT's, see evit config show)");
+  AddPlaceOptions(locate, &o->place);
+  auto* at = locate->add_option("--at", o->at, "s from the start of the log, where to begin")
+                 ->check(CLI::NonNegativeNumber);
+  locate->add_option("--for", o->seconds, "s of the log to decide in")->check(CLI::PositiveNumber);
+  auto* picture =
+      locate->add_option("--picture", o->picture, "PNG to write: events and map, of the best candidates");
+  auto* truth = locate->add_option("--truth", o->truth, "Truth (TUM) to compare with");
+  locate
+      ->add_option("--starts", o->starts, "Begin so many times, evenly over the log, and count what is right")
+      ->check(CLI::Range(1, 100'000))
+      ->needs(truth)
+      ->excludes(at)
+      ->excludes(picture);
+  locate->footer(
+      "Example: evit locate --log desk.lcmlog --map desk/map.pcd --rig desk/rig.textproto --at 2 --picture "
+      "at2.png\n"
+      "Exit code: 0 found (with truth: and right), 1 could not run, 2 not found, ambiguous, or wrong.");
+  locate->callback([o] {
+    const int code = Locate(*o);
+    if (code != 0) throw CLI::RuntimeError(code);
+  });
+}
+
+}  // namespace evit::commands

@@ -1,0 +1,125 @@
+#include "tools/locate/locator_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
+#include "common/events/keyframe_builder.h"
+#include "common/map/denoise.h"
+#include "common/map/map_file.h"
+#include "tools/terminal/progress_bar.h"
+
+namespace evit::locate {
+namespace {
+
+constexpr Utime kPiece = 10'000;  // us of events at a time
+
+TrackerOptions TrackerPart(const PipelineOptions& o) {
+  return {o.points, o.window, o.bootstrap, o.failure, o.keyframes.min_events, o.surface.lag_px, false};
+}
+
+KeyframeInput InputOf(Keyframe* keyframe) {
+  KeyframeInput input;
+  input.t = keyframe->utime;
+  input.seq = keyframe->seq;
+  input.n_events = static_cast<int>(keyframe->n_events);
+  input.surface = cv::Mat(keyframe->height, keyframe->width, CV_8UC1, keyframe->surface.data()).clone();
+  input.imu = std::move(keyframe->imu);
+  input.imu_gap = keyframe->imu_gap;
+  return input;
+}
+
+// A tracker, and all that it asks, answered at once.
+class Session {
+ public:
+  Session(const PreparedMap& map, const Rig& rig, const PipelineOptions& options,
+          const LocatingTracker::Options& locating, int threads)
+      : map_(map),
+        tracker_(MakeTracker(rig, TrackerPart(options), SE3()), rig, TrackerPart(options), locating),
+        finder_(*map.map, *map.places, rig, options.points, options.window, {48, 8, 900, threads}) {
+    AnswerPoints();
+  }
+
+  TrackerOutput Process(const KeyframeInput& keyframe, LocatorResult* result) {
+    const TrackerOutput output = tracker_.Process(keyframe);
+    AnswerPoints();
+    while (const PlaceQuery* question = tracker_.PlaceQuestion()) {
+      const auto begin = std::chrono::steady_clock::now();
+      const std::vector<PlaceCandidate> answer = finder_.Answer(*question);
+      if (question->everywhere) {
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+        result->search_s = (result->search_s * result->searches + took.count()) / (result->searches + 1);
+        ++result->searches;
+        if (result->candidates.empty() && !answer.empty())
+          result->candidates = answer, result->surface = question->surface;
+      }
+      tracker_.AddPlaces(answer);
+    }
+    return output;
+  }
+  const LocatingTracker& tracker() const { return tracker_; }
+
+ private:
+  void AnswerPoints() {
+    const VisibilityAnswer seen = map_.map->Query(tracker_.NextQuery());
+    std::vector<Eigen::Vector3f> points;
+    for (const std::int32_t id : seen.ids) points.push_back(map_.map->map().points[id]);
+    tracker_.AddVisible(seen.ids, points);
+  }
+
+  const PreparedMap& map_;
+  LocatingTracker tracker_;
+  PlaceFinder finder_;
+};
+
+}  // namespace
+
+PreparedMap PrepareMap(const std::string& path, int threads) {
+  LoadedMap loaded = LoadMap(path);
+  RequireMetres(Summarize(loaded.map), path);
+  Denoise({}, &loaded.map);
+  PreparedMap prepared;
+  PlaceIndexOptions options;
+  options.threads = threads;
+  {
+    terminal::ProgressBar bar("preparing");
+    prepared.places =
+        std::make_unique<PlaceIndex>(loaded.map, options, [&](double share) { bar.Show(share, path); });
+    bar.Show(1, path);
+  }
+  prepared.map = std::make_unique<MapIndex>(std::move(loaded.map));
+  return prepared;
+}
+
+LocatorResult RunLocator(const RecordedStreams& streams, const PreparedMap& map, const Rig& rig,
+                         const PipelineOptions& options, const LocatingTracker::Options& locating,
+                         Utime begin, double seconds, int threads) {
+  const std::clock_t started = std::clock();
+  const Utime end = std::min(streams.end(), begin + static_cast<Utime>(seconds * 1e6));
+  LocatorResult result;
+  Session session(map, rig, options, locating, threads);
+  KeyframeBuilder builder(rig, {options.keyframes, options.surface, Keyframe::Encoding::kTimeSurface}, true);
+  auto sample = std::lower_bound(streams.imu().begin(), streams.imu().end(), begin,
+                                 [](const ImuSample& s, Utime t) { return s.t < t; });
+  for (Utime t = begin; t < end && !result.found; t += kPiece) {
+    const Utime from = t - rig.camera_time_offset, to = from + kPiece;  // in the camera's clock
+    const EventArray events = streams.Events(from, to);
+    builder.AddEvents(events, events.size() == 0 ? to : std::max(to, events.t.back()));
+    for (; sample != streams.imu().end() && sample->t <= t + kPiece; ++sample) builder.AddImu(*sample);
+    while (auto keyframe = builder.Next()) {
+      const TrackerOutput output = session.Process(InputOf(&*keyframe), &result);
+      builder.SetFeedbackFor(keyframe->seq,
+                             {static_cast<TrackerFeedback::Mode>(output.mode), output.image_speed, 1});
+      result.progress = output.reason;
+      result.t = keyframe->utime;
+      result.after_s = ToSeconds(result.t - begin);
+      result.T_map_body = session.tracker().state().T_map_body;
+      result.found = output.mode == TrackerMode::kTracking;
+      if (result.found) break;
+    }
+  }
+  result.cpu_s = static_cast<double>(std::clock() - started) / CLOCKS_PER_SEC;
+  return result;
+}
+
+}  // namespace evit::locate

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config/pipeline_options.h"
+#include "common/geometry/rig.h"
+#include "common/localization/locating_tracker.h"
+#include "common/localization/place_finder.h"
+#include "tools/locate/recorded_streams.h"
+
+namespace evit::locate {
+
+/// A map and what finding places in it takes, made once.
+struct PreparedMap {
+  std::unique_ptr<MapIndex> map;
+  std::unique_ptr<PlaceIndex> places;
+};
+/// Thinned as map_server does it. Throws std::runtime_error: unreadable, or not in metres. Shows its
+/// progress.
+PreparedMap PrepareMap(const std::string& path, int threads);
+
+/// What came of one start without a pose.
+struct LocatorResult {
+  bool found = false;  // the tracker says TRACKING
+  double after_s = 0;  // sensor time from the start to that, or to the end of the part
+  Utime t = 0;         // us: of the pose
+  SE3 T_map_body;
+  std::string progress;                    // what the tracker said last
+  int searches = 0;                        // of the whole map
+  double search_s = 0;                     // for one of them, wall clock
+  double cpu_s = 0;                        // in all, without preparing the map
+  std::vector<PlaceCandidate> candidates;  // the first search's
+  cv::Mat surface;                         // that it was about
+};
+
+/// Starts a tracker without a pose at `begin` (us) of a recording and lets it run until it tracks, at most
+/// for `seconds`: as the four services do, in one process and without a bus.
+LocatorResult RunLocator(const RecordedStreams& streams, const PreparedMap& map, const Rig& rig,
+                         const PipelineOptions& options, const LocatingTracker::Options& locating,
+                         Utime begin, double seconds, int threads);
+
+}  // namespace evit::locate
