@@ -44,10 +44,13 @@ export class SurfaceView {
     for (let k = 0; k < picture.residuals.length; ++k) {
       const x = Math.round(picture.pixels[2 * k]! / 16);
       const y = Math.round(picture.pixels[2 * k + 1]! / 16);
-      if (x < 0 || y < 0 || x + 1 >= width || y + 1 >= height) continue;
-      const at = y * width + x;
-      const value = RESIDUAL_COLORS[picture.residuals[k]!]!;
-      pixels[at] = pixels[at + 1] = pixels[at + width] = pixels[at + width + 1] = value;
+      const residual = picture.residuals[k]!;
+      // Most edges do not move across the image and have no events: their points are there, and small.
+      const size = residual < 192 ? 4 : 2;
+      if (x < 0 || y < 0 || x + size > width || y + size > height) continue;
+      for (let row = y; row < y + size; ++row) {
+        pixels.fill(RESIDUAL_COLORS[residual]!, row * width + x, row * width + x + size);
+      }
     }
   }
 
