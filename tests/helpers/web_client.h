@@ -56,7 +56,8 @@ class WebClient {
   void Read() {
     char buffer[65536];
     ssize_t n = 0;
-    while ((n = recv(fd_, buffer, sizeof buffer, 0)) > 0) received_.append(buffer, static_cast<std::size_t>(n));
+    while ((n = recv(fd_, buffer, sizeof buffer, 0)) > 0)
+      received_.append(buffer, static_cast<std::size_t>(n));
     if (n == 0 || (n < 0 && errno != EAGAIN && errno != EWOULDBLOCK)) closed_ = true;
   }
   /// The answer's head, once it has come.

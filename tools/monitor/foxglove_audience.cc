@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint8_t kMessageData = 1;       // opcode
+constexpr std::uint8_t kMessageData = 1;  // opcode
 constexpr std::int64_t kPosePeriodUs = 15'000;
 constexpr std::int64_t kSurfacePeriodUs = 90'000;  // no acknowledgement tells what the viewer can draw
 constexpr std::int64_t kMapPeriodUs = 2'000'000;
@@ -58,11 +58,12 @@ void FoxgloveAudience::Received(ClientId client, std::string_view message) {
       if (!s["id"].is_number_unsigned() || !s["channelId"].is_number_unsigned()) continue;
       Subscribe(&viewer, s["id"].get<std::uint32_t>(), s["channelId"].get<std::uint32_t>());
     }
-  } else if (op == "unsubscribe" && order.contains("subscriptionIds") && order["subscriptionIds"].is_array()) {
+  } else if (op == "unsubscribe" && order.contains("subscriptionIds") &&
+             order["subscriptionIds"].is_array()) {
     for (const json& id : order["subscriptionIds"]) {
       for (auto s = viewer.subscriptions.begin(); s != viewer.subscriptions.end();) {
         s = id.is_number_unsigned() && s->second == id.get<std::uint32_t>() ? viewer.subscriptions.erase(s)
-                                                                           : std::next(s);
+                                                                            : std::next(s);
       }
     }
   } else {

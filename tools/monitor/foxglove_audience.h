@@ -14,7 +14,8 @@
 namespace evit::monitor {
 
 /// Viewers that speak the Foxglove WebSocket protocol (foxglove.websocket.v1): Foxglove, Lichtblick. They see
-/// pose, map, time surface and diagnostics, and give no orders. Of each channel only the newest message waits.
+/// pose, map, time surface and diagnostics, and give no orders. Of each channel only the newest message
+/// waits.
 class FoxgloveAudience : public WebClients, public PipelineListener {
  public:
   static constexpr char kProtocol[] = "foxglove.websocket.v1";
@@ -53,10 +54,10 @@ class FoxgloveAudience : public WebClients, public PipelineListener {
   std::string session_;
   std::map<ClientId, Viewer> viewers_;
   const MapStore* map_ = nullptr;
-  std::size_t map_sent_ = 0;                                       // points
+  std::size_t map_sent_ = 0;                                      // points
   std::int64_t map_time_ = 0, pose_time_ = 0, surface_time_ = 0;  // us, host clock: last sent
-  std::string mode_;                                               // last told
-  std::map<std::string, std::string> states_;                      // last told, by service
+  std::string mode_;                                              // last told
+  std::map<std::string, std::string> states_;                     // last told, by service
 };
 
 }  // namespace evit::monitor

@@ -36,9 +36,8 @@ std::string SchemaOf(const google::protobuf::Descriptor* type) {
 }
 
 json Channel(FoxgloveChannel id, const char* topic, const google::protobuf::Descriptor* type) {
-  return {{"id", static_cast<std::uint32_t>(id)}, {"topic", topic},
-          {"encoding", "protobuf"},               {"schemaName", type->full_name()},
-          {"schema", SchemaOf(type)},             {"schemaEncoding", "protobuf"}};
+  return {{"id", static_cast<std::uint32_t>(id)}, {"topic", topic},           {"encoding", "protobuf"},
+          {"schemaName", type->full_name()},      {"schema", SchemaOf(type)}, {"schemaEncoding", "protobuf"}};
 }
 
 void SetTime(std::int64_t utime, google::protobuf::Timestamp* to) {
@@ -80,21 +79,18 @@ std::string Ascii(std::string text) {
 }  // namespace
 
 std::string FoxgloveServerInfo(const std::string& session) {
-  return json{{"op", "serverInfo"},
-              {"name", "evit monitor"},
-              {"capabilities", json::array()},
-              {"sessionId", session}}
+  return json{
+      {"op", "serverInfo"}, {"name", "evit monitor"}, {"capabilities", json::array()}, {"sessionId", session}}
       .dump();
 }
 
 std::string FoxgloveAdvertisement() {
-  const json channels = {
-      Channel(FoxgloveChannel::kPose, "/pose", foxglove::PoseInFrame::descriptor()),
-      Channel(FoxgloveChannel::kTransform, "/tf", foxglove::FrameTransform::descriptor()),
-      Channel(FoxgloveChannel::kTruth, "/truth", foxglove::PoseInFrame::descriptor()),
-      Channel(FoxgloveChannel::kMap, "/map", foxglove::PointCloud::descriptor()),
-      Channel(FoxgloveChannel::kSurface, "/surface", foxglove::RawImage::descriptor()),
-      Channel(FoxgloveChannel::kLog, "/diagnostics", foxglove::Log::descriptor())};
+  const json channels = {Channel(FoxgloveChannel::kPose, "/pose", foxglove::PoseInFrame::descriptor()),
+                         Channel(FoxgloveChannel::kTransform, "/tf", foxglove::FrameTransform::descriptor()),
+                         Channel(FoxgloveChannel::kTruth, "/truth", foxglove::PoseInFrame::descriptor()),
+                         Channel(FoxgloveChannel::kMap, "/map", foxglove::PointCloud::descriptor()),
+                         Channel(FoxgloveChannel::kSurface, "/surface", foxglove::RawImage::descriptor()),
+                         Channel(FoxgloveChannel::kLog, "/diagnostics", foxglove::Log::descriptor())};
   return json{{"op", "advertise"}, {"channels", channels}}.dump();
 }
 

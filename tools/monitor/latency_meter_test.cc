@@ -5,7 +5,7 @@
 namespace evit::monitor {
 namespace {
 
-constexpr Utime kSensor = 5'000'000'000;         // the sensor's clock
+constexpr Utime kSensor = 5'000'000'000;        // the sensor's clock
 constexpr std::int64_t kHost = 90'000'000'000;  // the host's, for the same instant
 
 // IMU messages of `seconds` at `pace`, each `delay(i)` us under way.
@@ -42,7 +42,8 @@ TEST(LatencyMeter, SaysNothingWhereDataDoNotComeInRealTime) {
 TEST(LatencyMeter, SaysNothingAfterAJumpOfTheRecordingAndThenAgain) {
   LatencyMeter meter;
   Feed(&meter, 3, 1, [](int) { return 100; });
-  for (int i = 0; i < 900; ++i) meter.AddData(kSensor - 60'000'000 + 5'000 * i, kHost + 3'000'000 + 5'000 * i);
+  for (int i = 0; i < 900; ++i)
+    meter.AddData(kSensor - 60'000'000 + 5'000 * i, kHost + 3'000'000 + 5'000 * i);
   EXPECT_NEAR(meter.MsSince(kSensor - 60'000'000 + 4'500'000, kHost + 3'000'000 + 4'520'000), 20, 1e-9);
 }
 

@@ -22,8 +22,8 @@ struct MonitorOptions {
   WebServer::Options web;
   bool read_only = false;  // no order of a viewer reaches the bus
   std::string prefix;      // of all channels
-  std::string map, rig;    // files; empty: the pipeline's, where it runs on this host, else learnt from the bus
-  pid_t pipeline = 0;      // of all that run on this host show this one only; 0: the newest
+  std::string map, rig;  // files; empty: the pipeline's, where it runs on this host, else learnt from the bus
+  pid_t pipeline = 0;    // of all that run on this host show this one only; 0: the newest
 };
 
 /// Shows a pipeline to viewers. One thread; nothing waits for a viewer.

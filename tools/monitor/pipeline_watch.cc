@@ -11,7 +11,7 @@
 namespace evit::monitor {
 namespace {
 
-constexpr std::size_t kKeyframes = 16;         // kept until their estimate comes, 300 kB each
+constexpr std::size_t kKeyframes = 32;  // kept until their estimate comes, as many as frame_builder holds
 constexpr std::int64_t kPatienceUs = 300'000;  // without estimates for so long, keyframes are shown without
 constexpr std::int64_t kPicturePeriodUs = 30'000;
 constexpr std::size_t kOverlayPoints = 4000;

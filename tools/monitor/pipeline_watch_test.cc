@@ -143,9 +143,11 @@ TEST_F(PipelineWatchTest, NothingIsMadeForNobody) {
 }
 
 TEST_F(PipelineWatchTest, TheCamerasPlaceIsLearntFromQueries) {
-  const SE3 T_body_camera(Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY())), {0.1, 0, 0.05});
+  const SE3 T_body_camera(Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY())),
+                          {0.1, 0, 0.05});
   for (int i = 0; i < 20; ++i) {
-    const SE3 T_map_body(Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d::UnitZ())), {0.2 * i, 1, 2});
+    const SE3 T_map_body(Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d::UnitZ())),
+                         {0.2 * i, 1, 2});
     map_query_t query = Sample<map_query_t>();
     query.utime = 1000 * i;
     PutPose(T_map_body * T_body_camera, &query);

@@ -12,8 +12,8 @@
 namespace evit::monitor {
 namespace {
 
-constexpr char kPlain[] = "\x1b[0m", kDim[] = "\x1b[2m", kGood[] = "\x1b[1;34m",
-               kWait[] = "\x1b[1;33m", kBad[] = "\x1b[1;31m";
+constexpr char kPlain[] = "\x1b[0m", kDim[] = "\x1b[2m", kGood[] = "\x1b[1;34m", kWait[] = "\x1b[1;33m",
+               kBad[] = "\x1b[1;31m";
 constexpr double kSilentS = 3;  // services send STATUS once a second
 
 // Text from the bus must not steer the terminal.
@@ -91,9 +91,10 @@ std::string TopScreen::Draw(int columns, int rows, bool color) const {
                                   std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))});
   const auto& c = window_.covariance;
   const std::string latency = latency_ms_ < 0 ? "not in real time" : Format("%.0f ms", latency_ms_);
-  lines.push_back({kPlain, Format("sigma %5.1f mm   points %d, %.0f %% on edges   solve %.1f ms   latency %s",
-                                  1e3 * std::sqrt(std::max(0.0, c[0][0] + c[1][1] + c[2][2])), window_.n_points,
-                                  100 * window_.inlier_share, window_.solve_ms, latency.c_str())});
+  lines.push_back(
+      {kPlain, Format("sigma %5.1f mm   points %d, %.0f %% on edges   solve %.1f ms   latency %s",
+                      1e3 * std::sqrt(std::max(0.0, c[0][0] + c[1][1] + c[2][2])), window_.n_points,
+                      100 * window_.inlier_share, window_.solve_ms, latency.c_str())});
   lines.push_back({kPlain, ""});
   lines.push_back({kDim, "SERVICE            STATE            CPU    MEMORY"});
   for (const auto& [name, service] : watch_->services()) {

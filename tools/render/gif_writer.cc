@@ -106,10 +106,15 @@ std::vector<std::uint8_t> CompressGif(const std::vector<std::uint8_t>& indices, 
 }
 
 GifWriter::GifWriter(const std::string& path, cv::Size size, int delay_cs, const Palette& palette)
-    : path_(path), file_(std::fopen(path.c_str(), "wb")), size_(size), delay_cs_(delay_cs), palette_(palette) {
+    : path_(path),
+      file_(std::fopen(path.c_str(), "wb")),
+      size_(size),
+      delay_cs_(delay_cs),
+      palette_(palette) {
   if (!file_) throw std::runtime_error("cannot write " + path);
-  std::vector<std::uint8_t> head = {'G', 'I', 'F', '8', '9', 'a', Low(size.width), High(size.width),
-                                    Low(size.height), High(size.height), 0xF7, 0, 0};
+  std::vector<std::uint8_t> head = {
+      'G',  'I', 'F', '8', '9', 'a', Low(size.width), High(size.width), Low(size.height), High(size.height),
+      0xF7, 0,   0};
   for (std::size_t i = 0; i < 256; ++i) {
     const cv::Vec3b color = i < palette_.colors().size() ? palette_.colors()[i] : cv::Vec3b(0, 0, 0);
     head.insert(head.end(), {color[2], color[1], color[0]});
@@ -134,7 +139,8 @@ void GifWriter::PutPart(const cv::Mat& indices, const cv::Rect& part, bool whole
       pixels.push_back(!whole && index == shown_.at<std::uint8_t>(y, x) ? kUnchanged : index);
     }
   }
-  std::vector<std::uint8_t> block = {0x21, 0xF9, 4, 0x05, Low(delay_cs_), High(delay_cs_), kUnchanged, 0, 0x2C};
+  std::vector<std::uint8_t> block = {0x21,       0xF9, 4,   0x05, Low(delay_cs_), High(delay_cs_),
+                                     kUnchanged, 0,    0x2C};
   for (const int value : {part.x, part.y, part.width, part.height}) {
     block.insert(block.end(), {Low(value), High(value)});
   }

@@ -32,8 +32,8 @@ std::vector<std::uint8_t> CompressGif(const std::vector<std::uint8_t>& indices, 
 /// An animated GIF (GIF89a) that repeats for ever. Of each picture only the part that has changed is stored.
 class GifWriter {
  public:
-  /// `delay_cs`: hundredths of a second a picture is shown. Throws std::runtime_error naming the file where it
-  /// cannot be made.
+  /// `delay_cs`: hundredths of a second a picture is shown. Throws std::runtime_error naming the file where
+  /// it cannot be made.
   GifWriter(const std::string& path, cv::Size size, int delay_cs, const Palette& palette);
 
   /// BGR, of the size given.

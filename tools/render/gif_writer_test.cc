@@ -27,7 +27,8 @@ std::vector<std::uint8_t> Decompress(const std::vector<std::uint8_t>& bytes, int
   };
   for (;;) {
     std::size_t code = 0;
-    for (int k = 0; k < width; ++k, ++at) code |= static_cast<std::size_t>(bytes.at(at / 8) >> at % 8 & 1) << k;
+    for (int k = 0; k < width; ++k, ++at)
+      code |= static_cast<std::size_t>(bytes.at(at / 8) >> at % 8 & 1) << k;
     if (static_cast<int>(code) == clear) {
       reset();
       continue;
@@ -56,7 +57,8 @@ TEST(CompressGif, ComesBackAsItWas) {
     for (const std::size_t n : {0U, 1U, 2U, 255U, 5000U, 200000U}) {
       std::vector<std::uint8_t> indices(n);
       for (std::size_t i = 0; i < n; ++i) {
-        indices[i] = static_cast<std::uint8_t>(i % 3 == 0 ? random() % static_cast<unsigned>(colors) : i / 100 % static_cast<unsigned>(colors));
+        indices[i] = static_cast<std::uint8_t>(i % 3 == 0 ? random() % static_cast<unsigned>(colors)
+                                                          : i / 100 % static_cast<unsigned>(colors));
       }
       ASSERT_EQ(Decompress(CompressGif(indices, 8), 8), indices) << colors << " colours, " << n << " pixels";
     }
@@ -74,7 +76,8 @@ TEST(Palette, HasTheColorsThatAreThere) {
 }
 
 TEST(GifWriter, AReaderSeesEachPicture) {
-  const std::string path = (std::filesystem::path(::testing::TempDir()) / ("evit_" + std::to_string(getpid()) + ".gif")).string();
+  const std::string path =
+      (std::filesystem::path(::testing::TempDir()) / ("evit_" + std::to_string(getpid()) + ".gif")).string();
   std::vector<cv::Mat> pictures;
   for (int i = 0; i < 4; ++i) {
     cv::Mat picture(48, 64, CV_8UC3, cv::Scalar(248, 248, 248));

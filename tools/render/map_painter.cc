@@ -16,10 +16,13 @@ constexpr double kNear = 0.05;                    // m
 constexpr double kStrays = 0.02;                  // share of points that may lie outside, at each end
 constexpr std::size_t kMostPoints = 300'000;
 
-cv::Scalar Rgb(unsigned hex) { return {double(hex & 255U), double(hex >> 8 & 255U), double(hex >> 16 & 255U)}; }
+cv::Scalar Rgb(unsigned hex) {
+  return {double(hex & 255U), double(hex >> 8 & 255U), double(hex >> 16 & 255U)};
+}
 
 float Quantile(std::vector<float>* values, double share) {
-  const auto k = values->begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values->size() - 1));
+  const auto k =
+      values->begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values->size() - 1));
   std::nth_element(values->begin(), k, values->end());
   return *k;
 }
@@ -27,11 +30,13 @@ float Quantile(std::vector<float>* values, double share) {
 }  // namespace
 
 Theme LightTheme() {
-  return {Rgb(0xffffff), Rgb(0x1c2430), Rgb(0x8a94a3), Rgb(0x0072b2), Rgb(0x00224e), Rgb(0x66696f), Rgb(0xb39a2f)};
+  return {Rgb(0xffffff), Rgb(0x1c2430), Rgb(0x8a94a3), Rgb(0x0072b2),
+          Rgb(0x00224e), Rgb(0x66696f), Rgb(0xb39a2f)};
 }
 
 Theme DarkTheme() {
-  return {Rgb(0x182029), Rgb(0xe4e9f0), Rgb(0x7d8a9b), Rgb(0x56b4e9), Rgb(0x3f5f8f), Rgb(0x9a9a92), Rgb(0xf5df6a)};
+  return {Rgb(0x182029), Rgb(0xe4e9f0), Rgb(0x7d8a9b), Rgb(0x56b4e9),
+          Rgb(0x3f5f8f), Rgb(0x9a9a92), Rgb(0xf5df6a)};
 }
 
 MapPainter::MapPainter(std::vector<Eigen::Vector3f> points, cv::Size size, double turn, const Theme& theme)
@@ -61,10 +66,12 @@ void MapPainter::Frame() {
 
 void MapPainter::Look(double turn) {
   turn_ = turn;
+  dot_ = std::max(1, size_.height / 400);
   focal_ = 0.5 * size_.height / std::tan(kFieldOfView / 2);
   const double share = std::min(1.0, static_cast<double>(size_.width) / size_.height);
   const double distance = radius_ / std::sin(kFieldOfView / 2) / share * 0.88;
-  const Eigen::Vector3d forward(std::cos(kTilt) * std::cos(turn), std::cos(kTilt) * std::sin(turn), -std::sin(kTilt));
+  const Eigen::Vector3d forward(std::cos(kTilt) * std::cos(turn), std::cos(kTilt) * std::sin(turn),
+                                -std::sin(kTilt));
   const Eigen::Vector3d right(std::sin(turn), -std::cos(turn), 0);
   Eigen::Matrix3d R_map_view;
   R_map_view << right, forward.cross(right), forward;
@@ -74,7 +81,8 @@ void MapPainter::Look(double turn) {
 std::optional<Eigen::Vector3d> MapPainter::Project(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d p = T_view_map_ * point;
   if (p.z() < kNear) return std::nullopt;
-  return Eigen::Vector3d(size_.width / 2.0 + focal_ * p.x() / p.z(), size_.height / 2.0 + focal_ * p.y() / p.z(), p.z());
+  return Eigen::Vector3d(size_.width / 2.0 + focal_ * p.x() / p.z(),
+                         size_.height / 2.0 + focal_ * p.y() / p.z(), p.z());
 }
 
 // Sixteen steps, so that moving pictures pack well.
@@ -95,9 +103,11 @@ const cv::Mat& MapPainter::Background(double turn) {
     const auto at = Project(point.cast<double>());
     if (!at) continue;
     const cv::Point pixel(cvRound(at->x()), cvRound(at->y()));
-    if (!cv::Rect({}, size_).contains(pixel) || depth.at<float>(pixel) <= static_cast<float>(at->z())) continue;
+    if (!cv::Rect({}, size_).contains(pixel) || depth.at<float>(pixel) <= static_cast<float>(at->z()))
+      continue;
     depth.at<float>(pixel) = static_cast<float>(at->z());
-    background_.at<cv::Vec3b>(pixel) = ColorAt(point.z());
+    const cv::Rect dot = cv::Rect(pixel, cv::Size(dot_, dot_)) & cv::Rect({}, size_);
+    background_(dot).setTo(ColorAt(point.z()));
   }
   return background_;
 }
@@ -107,8 +117,8 @@ void MapPainter::Line(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const 
   const auto from = Project(a), to = Project(b);
   if (!from || !to) return;
   const auto limited = [](double v) { return cvRound(std::clamp(v, -20000.0, 20000.0)); };
-  cv::line(*picture, {limited(from->x()), limited(from->y())}, {limited(to->x()), limited(to->y())}, color, width,
-           cv::LINE_AA);
+  cv::line(*picture, {limited(from->x()), limited(from->y())}, {limited(to->x()), limited(to->y())}, color,
+           width, cv::LINE_AA);
 }
 
 }  // namespace evit::render

@@ -41,6 +41,7 @@ class MapPainter {
   double radius_ = 1;       // m
   float low_ = 0, high_ = 1;
   double turn_, focal_ = 1;
+  int dot_ = 1;  // pixels
   SE3 T_view_map_;
   cv::Mat background_;
 };

@@ -37,9 +37,9 @@ RecordedRun::RecordedRun(const std::string& path, const std::string& prefix) : l
 }
 
 std::size_t RecordedRun::WindowAt(std::int64_t t) const {
-  const auto after = std::upper_bound(
-      windows_.begin(), windows_.end(), t,
-      [](std::int64_t stamp, const window_state_t& window) { return stamp < window.utime; });
+  const auto after =
+      std::upper_bound(windows_.begin(), windows_.end(), t,
+                       [](std::int64_t stamp, const window_state_t& window) { return stamp < window.utime; });
   return after == windows_.begin() ? 0 : static_cast<std::size_t>(after - windows_.begin()) - 1;
 }
 

@@ -55,7 +55,8 @@ void WriteGif(const std::string& part, const RenderOptions& o, const std::vector
   for (std::size_t k = 0; k < kSamples; ++k) {
     samples.push_back(painter->Paint(moments[k * (moments.size() - 1) / (kSamples - 1)]));
   }
-  GifWriter writer(part, o.paint.size, std::max(2, static_cast<int>(std::lround(100 / o.fps))), Palette(samples));
+  GifWriter writer(part, o.paint.size, std::max(2, static_cast<int>(std::lround(100 / o.fps))),
+                   Palette(samples));
   DrawAll(moments, painter, [&](const cv::Mat& picture) { writer.Add(picture); });
   writer.Close();
 }
@@ -68,7 +69,8 @@ void WriteMp4(const std::string& part, const RenderOptions& o, const std::vector
     const int fourcc = cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]);
     if (writer.open(part, cv::CAP_FFMPEG, fourcc, o.fps, o.paint.size)) break;
   }
-  if (!writer.isOpened()) throw std::runtime_error("cannot write " + o.out + ": OpenCV has no encoder for MP4; try .gif");
+  if (!writer.isOpened())
+    throw std::runtime_error("cannot write " + o.out + ": OpenCV has no encoder for MP4; try .gif");
   DrawAll(moments, painter, [&](const cv::Mat& picture) { writer.write(picture); });
 }
 

@@ -37,7 +37,8 @@ cv::Vec3b ToPixel(const cv::Scalar& color) {
 
 }  // namespace
 
-RunPainter::RunPainter(const RecordedRun* run, const PointMap& map, const Rig& rig, const PaintOptions& options)
+RunPainter::RunPainter(const RecordedRun* run, const PointMap& map, const Rig& rig,
+                       const PaintOptions& options)
     : run_(run),
       index_(map),
       rig_(rig),
@@ -63,9 +64,10 @@ cv::Mat RunPainter::Paint(std::int64_t t) {
   PaintMap(now, (options_.turn_deg + options_.turn_deg_per_s * seconds) / kDegrees, &picture);
   PaintSurface(window, &picture);
   const int half = curves_place_.height / 2;
-  PaintCurve("speed, m/s", speed_, now, {curves_place_.x, curves_place_.y, curves_place_.width, half - 4}, &picture);
-  PaintCurve("sigma, mm", sigma_, now, {curves_place_.x, curves_place_.y + half, curves_place_.width, half - 4},
+  PaintCurve("speed, m/s", speed_, now, {curves_place_.x, curves_place_.y, curves_place_.width, half - 4},
              &picture);
+  PaintCurve("sigma, mm", sigma_, now,
+             {curves_place_.x, curves_place_.y + half, curves_place_.width, half - 4}, &picture);
   PaintText(window, &picture);
   return picture;
 }
@@ -76,15 +78,17 @@ void RunPainter::PaintMap(std::size_t window, double turn, cv::Mat* picture) {
   const auto& windows = run_->windows();
   for (std::size_t i = 1; i <= window; ++i) {
     if (windows[i].utime - windows[i - 1].utime > kLongestStepUs) continue;
-    map_.Line(Eigen::Vector3d(windows[i - 1].node.back().position), Eigen::Vector3d(windows[i].node.back().position),
-              theme_.accent, 2, &view);
+    map_.Line(Eigen::Vector3d(windows[i - 1].node.back().position),
+              Eigen::Vector3d(windows[i].node.back().position), theme_.accent, 2, &view);
   }
   const SE3 T_map_camera = PoseOf(windows[window].node.back()) * rig_.T_body_camera;
   const Camera& c = rig_.camera;
   Eigen::Vector3d corners[4];
-  const double u[] = {0, double(c.width), double(c.width), 0}, v[] = {0, 0, double(c.height), double(c.height)};
+  const double u[] = {0, double(c.width), double(c.width), 0},
+               v[] = {0, 0, double(c.height), double(c.height)};
   for (int k = 0; k < 4; ++k) {
-    corners[k] = T_map_camera * Eigen::Vector3d(kFrustumM * (u[k] - c.cx) / c.fx, kFrustumM * (v[k] - c.cy) / c.fy, kFrustumM);
+    corners[k] = T_map_camera * Eigen::Vector3d(kFrustumM * (u[k] - c.cx) / c.fx,
+                                                kFrustumM * (v[k] - c.cy) / c.fy, kFrustumM);
   }
   for (int k = 0; k < 4; ++k) {
     map_.Line(T_map_camera.p, corners[k], theme_.ink, 2, &view);
@@ -106,10 +110,11 @@ std::vector<Eigen::Vector3f> RunPainter::Visible(const SE3& T_map_camera) const 
 
 void RunPainter::PaintSurface(const window_state_t& window, cv::Mat* picture) {
   const auto keyframe = run_->KeyframeAt(window.utime);
-  if (keyframe && keyframe->encoding == keyframe_t::TIME_SURFACE) DrawSurface(*keyframe, PoseOf(window.node.back()));
+  if (keyframe && keyframe->encoding == keyframe_t::TIME_SURFACE)
+    DrawSurface(*keyframe, PoseOf(window.node.back()));
   if (surface_.empty()) return;
-  const cv::Rect place(surface_place_.x + (surface_place_.width - surface_.cols) / 2, surface_place_.y, surface_.cols,
-                       surface_.rows);
+  const cv::Rect place(surface_place_.x + (surface_place_.width - surface_.cols) / 2, surface_place_.y,
+                       surface_.cols, surface_.rows);
   surface_.copyTo((*picture)(place));
   cv::rectangle(*picture, place, theme_.soft, 1);
 }
@@ -128,11 +133,13 @@ void RunPainter::DrawSurface(const keyframe_t& keyframe, const SE3& T_map_body) 
   cv::cvtColor(gray, surface_, cv::COLOR_GRAY2BGR);
   cv::LUT(surface_, table, surface_);
   const SE3 T_map_camera = T_map_body * rig_.T_body_camera;
-  const int dot = std::max(2, surface_.cols / 200);
+  // Most edges do not move across the image and have no events: their points are there, and small.
+  const int dot = std::max(2, surface_.cols / 130);
   for (const monitor::OverlayPoint& point :
        monitor::ProjectOnto(keyframe, rig_.camera, T_map_camera, Visible(T_map_camera), options_.points)) {
     const cv::Point at(cvRound(scale * point.x), cvRound(scale * point.y));
-    cv::rectangle(surface_, cv::Rect(at, cv::Size(dot, dot)), ResidualColor(point.residual), cv::FILLED);
+    cv::rectangle(surface_, cv::Rect(at, point.residual < 192 ? cv::Size(dot, dot) : cv::Size(1, 1)),
+                  ResidualColor(point.residual), cv::FILLED);
   }
 }
 
@@ -144,9 +151,10 @@ void RunPainter::PaintText(const window_state_t& window, cv::Mat* picture) const
   std::snprintf(text, sizeof text, "%s", kModes[window.mode]);
   pictures::DrawText(picture, text, {line / 2, line}, 1.4 * size, pictures::Anchor::kLeft, theme_.accent, 2);
   std::snprintf(text, sizeof text, "%.1f s   %.0f %% of %d points on edges",
-                1e-6 * static_cast<double>(window.utime - run_->windows().front().utime), 100 * window.inlier_share,
-                window.n_points);
-  pictures::DrawText(picture, text, {line / 2, options_.size.height - line / 2}, size, pictures::Anchor::kLeft, theme_.ink);
+                1e-6 * static_cast<double>(window.utime - run_->windows().front().utime),
+                100 * window.inlier_share, window.n_points);
+  pictures::DrawText(picture, text, {line / 2, options_.size.height - line / 2}, size,
+                     pictures::Anchor::kLeft, theme_.ink);
 }
 
 void RunPainter::PaintCurve(const std::string& name, const std::vector<double>& values, std::size_t now,
@@ -162,7 +170,8 @@ void RunPainter::PaintCurve(const std::string& name, const std::vector<double>& 
     const double x = (static_cast<double>(windows[i].utime) - begin) / length;
     return cv::Point(plot.x + cvRound(x * plot.width), plot.y + cvRound((1 - values[i] / top) * plot.height));
   };
-  cv::line(*picture, {plot.x, plot.y + plot.height}, {plot.x + plot.width, plot.y + plot.height}, theme_.soft, 1);
+  cv::line(*picture, {plot.x, plot.y + plot.height}, {plot.x + plot.width, plot.y + plot.height}, theme_.soft,
+           1);
   for (std::size_t i = 1; i <= now; ++i) cv::line(*picture, at(i - 1), at(i), theme_.accent, 1, cv::LINE_AA);
   char text[64];
   std::snprintf(text, sizeof text, "%s  %.2g", name.c_str(), values[now]);

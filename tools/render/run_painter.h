@@ -15,9 +15,9 @@ namespace evit::render {
 struct PaintOptions {
   cv::Size size{960, 540};
   bool dark = false;
-  double turn_deg = 50;         // from where the map is seen: about the vertical
-  double turn_deg_per_s = 0;    // and how it turns, in the recording's time
-  std::size_t points = 1500;    // on the time surface
+  double turn_deg = 50;       // from where the map is seen: about the vertical
+  double turn_deg_per_s = 0;  // and how it turns, in the recording's time
+  std::size_t points = 1500;  // on the time surface
 };
 
 /// Draws a moment of a run: the map with the body and its path; beside it the time surface with the projected
@@ -35,8 +35,8 @@ class RunPainter {
   void PaintSurface(const window_state_t& window, cv::Mat* picture);
   void DrawSurface(const keyframe_t& keyframe, const SE3& T_map_body);
   void PaintText(const window_state_t& window, cv::Mat* picture) const;
-  void PaintCurve(const std::string& name, const std::vector<double>& values, std::size_t now, const cv::Rect& where,
-                  cv::Mat* picture) const;
+  void PaintCurve(const std::string& name, const std::vector<double>& values, std::size_t now,
+                  const cv::Rect& where, cv::Mat* picture) const;
   std::vector<Eigen::Vector3f> Visible(const SE3& T_map_camera) const;
 
   const RecordedRun* run_;
