@@ -16,7 +16,8 @@ constexpr StartRange kStart{0.1, 0.09, 4};     // a start pose typed in by hand;
 constexpr StartRange kFollow{0.01, 0.006, 3};  // constant velocity and gyro over some 10 ms
 constexpr std::size_t kSureFrames = 3;
 constexpr std::size_t kMaxFrames = 300;
-constexpr int kPatience = 100;  // frames that do not fit before the start counts as failed
+constexpr std::size_t kLongestDoubt = 100;  // frames of a chain that may be false, before it is given up
+constexpr int kPatience = 100;              // frames that do not fit before the start counts as failed
 
 // What the window may believe of its first state: the accuracy of an event-only pose and of the alignment.
 StatePrior FirstPrior(const BodyState& state) {
@@ -82,7 +83,7 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
     return result;
   }
   state_.T_map_body = fit.T_map_body;
-  frames_.push_back({{keyframe.t, fit.T_map_body, imu}, keyframe.seq, field, result.points});
+  frames_.push_back({{keyframe.t, fit.T_map_body, imu}, keyframe.seq, field, result.points, significance});
   if (frames_.size() > kMaxFrames) frames_.erase(frames_.begin());
   state_.velocity = RecentVelocity();
   if (state_.velocity.norm() > options_.failure.max_speed) {
@@ -93,12 +94,30 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
   // velocity do not.
   result.status = Result::Status::kUnsure;
   if (frames_.size() < kSureFrames) return result;
-  rejected_ = 0;
-  anchor_.Start(fit.T_map_body, state_.velocity);
   result.status = Result::Status::kLocalized;
   result.reason = "localising high-rate frames";
+  if (!Found()) {
+    if (frames_.size() >= kLongestDoubt) RejectFrame(&result);
+    return result;
+  }
+  // A chain that may be false moves no anchor: where it ends nothing would be left of where the body was.
+  rejected_ = 0;
+  anchor_.Start(fit.T_map_body, state_.velocity);
   if (ReadyToAlign() && Verified(keyframe.seq, &result)) Align(&result);
   return result;
+}
+
+double Bootstrapper::MeanSignificance() const {
+  double sum = 0;
+  for (const LocalizedFrame& f : frames_) sum += f.significance;
+  return sum / static_cast<double>(frames_.size());
+}
+
+// Whether the chain explains its events better than a false one does: a single frame of that may look as
+// sure, ten in a row do not.
+bool Bootstrapper::Found() const {
+  return static_cast<int>(frames_.size()) >= options_.bootstrap.min_frames &&
+         MeanSignificance() >= kFoundSignificance;
 }
 
 // A false lock may look as sure as the right one while no other is known: before the window takes over, none

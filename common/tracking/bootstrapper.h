@@ -54,11 +54,14 @@ class Bootstrapper {
     std::int64_t seq;
     std::shared_ptr<const SurfaceField> field;
     AlignmentPoints points;
+    double significance;
   };
 
+  double MeanSignificance() const;
   void RejectFrame(Result* result);
   Eigen::Vector3d RecentVelocity() const;
   bool ReadyToAlign() const;
+  bool Found() const;
   bool Verified(std::int64_t seq, Result* result);
   void Align(Result* result);
 

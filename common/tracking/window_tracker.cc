@@ -1,5 +1,6 @@
 #include "common/tracking/window_tracker.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -23,7 +24,8 @@ WindowTracker::WindowTracker(const Rig& rig, const TrackerOptions& options,
 void WindowTracker::Start(std::deque<WindowNode> nodes, const StatePrior& prior) {
   window_.Start(std::move(nodes), prior);
   window_.Solve();
-  aligned_at_ = window_.nodes().back().t;
+  aligned_at_ = started_at_ = window_.nodes().back().t;
+  mean_significance_ = n_significances_ = 0;
   SetUncertainty(window_.nodes().back());
 }
 
@@ -40,6 +42,7 @@ void WindowTracker::ReportUncertainty(const Eigen::Vector3d& rate, TrackerOutput
 void WindowTracker::Start(Utime t, const BodyState& state, const Matrix15d& information) {
   WindowNode node;
   node.t = aligned_at_ = t;
+  started_at_ = 0;
   node.state = state;
   // What its surface said is in the information already.
   const cv::Mat nothing(rig_.camera.height, rig_.camera.width, CV_8UC1, cv::Scalar(255));
@@ -95,7 +98,10 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
   out->quality = MeasureAlignment(alignment_, *newest.field, newest.points, newest.state.T_map_body);
 
   Result result;
-  result.coasting = WhyCoast(keyframe, out->quality);
+  const double significance =
+      AlignmentSignificance(alignment_, *newest.field, newest.points, newest.state.T_map_body);
+  const std::string wrong = newest.points.size() > 0 ? WhyFalse(keyframe.t, significance) : "";
+  result.coasting = WhyCoast(keyframe, out->quality, significance);
   if (result.coasting.empty()) {
     aligned_at_ = keyframe.t;
     SetUncertainty(newest);
@@ -108,26 +114,43 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
   const std::string impossible = WhatIsImpossible(newest.state, options_.failure);
   result.failure = !solve.usable         ? "the solver failed"
                    : !impossible.empty() ? impossible
+                   : !wrong.empty()      ? wrong
                                          : WhyLost(result.coasting, out->covariance);
   result.restart = newest.state;
   if (!impossible.empty()) {
     // It has diverged: the prediction from the state before is the better place to look.
     result.restart = BodyState();
     result.restart.T_map_body = predicted.back().T_map_body;
+  } else if (!wrong.empty()) {
+    // Neither has its velocity been the body's.
+    result.restart = BodyState();
+    result.restart.T_map_body = newest.state.T_map_body;
   }
   return result;
 }
 
 // Why the newest keyframe's events do not count; empty where they do.
-std::string WindowTracker::WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality) const {
+std::string WindowTracker::WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality,
+                                    double significance) const {
   if (keyframe.n_events < options_.min_events) return "no events";
   if (window_.nodes().back().points.size() < kMinPoints) return "no map points in view";
-  const WindowNode& newest = window_.nodes().back();
-  const double significance =
-      AlignmentSignificance(alignment_, *newest.field, newest.points, newest.state.T_map_body);
   if (!LiesOnEvents(quality, options_.failure.min_contrast, significance, kTrackingSignificance))
     return "the map does not lie on the events";
   return "";
+}
+
+// Why a start that looked right was none after all; empty while it may be. Later the IMU vouches for the
+// pose: events may then say little for a while, as where half of the map is missing.
+std::string WindowTracker::WhyFalse(Utime t, double significance) {
+  constexpr Utime kProbation = 1'000'000;  // us
+  constexpr int kMean = 10, kFewest = 5;   // keyframes
+  n_significances_ = std::min(n_significances_ + 1, kMean);
+  mean_significance_ += (significance - mean_significance_) / n_significances_;
+  if (started_at_ == 0 || t - started_at_ > kProbation || n_significances_ < kFewest ||
+      mean_significance_ >= kFollowSignificance) {
+    return "";
+  }
+  return "the map lies on the events no better than at a false pose";
 }
 
 // Why coasting cannot continue; empty where it can.

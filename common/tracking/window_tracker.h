@@ -51,7 +51,9 @@ class WindowTracker {
  private:
   void SetUncertainty(const WindowNode& newest);
   WindowNode PredictedNode(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) const;
-  std::string WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality) const;
+  std::string WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality,
+                       double significance) const;
+  std::string WhyFalse(Utime t, double significance);
   std::string WhyLost(const std::string& coasting, const Matrix6d& covariance) const;
 
   Rig rig_;
@@ -60,7 +62,10 @@ class WindowTracker {
   const PointSelector* points_;
   SlidingWindow window_;
   PoseUncertainty uncertainty_;
-  Utime aligned_at_ = 0;  // us: newest keyframe whose events the map lay on
+  Utime started_at_ = 0;          // us: where bootstrapping ended; 0: from what was known
+  double mean_significance_ = 0;  // of the last ten keyframes or so that have events
+  int n_significances_ = 0;       // in it
+  Utime aligned_at_ = 0;          // us: newest keyframe whose events the map lay on
 };
 
 }  // namespace evit

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "tests/helpers/tracking_bench.h"
 
 namespace evit {
@@ -73,6 +75,34 @@ TEST_F(WindowTrackerTest, EventsTheMapDoesNotLieOnDoNotPull) {
   const WindowTracker::Result result = Step(synthetic::RoomPoints(60, 99));
   EXPECT_EQ(result.coasting, "the map does not lie on the events");
   EXPECT_LT((window_.state().T_map_body.p - source_.Truth(t_).p).norm(), 0.006);
+}
+
+// As bootstrapping starts it. Where the start was a false one the events tell within a few keyframes, long
+// before coasting has lasted too long.
+TEST_F(WindowTrackerTest, NoticesWithinFiveKeyframesThatTheStartWasFalse) {
+  const auto other = synthetic::RoomPoints(60, 99);
+  for (const auto* seen : {&source_.room, &other}) {
+    source_ = KeyframeSource();
+    source_.last = t_ = 1'000'000;
+    WindowNode first;
+    first.t = t_;
+    first.state = state_;
+    const cv::Mat surface = synthetic::DrawSurface(source_.settings, *seen, state_.T_map_body);
+    first.field = std::make_shared<SurfaceField>(surface, 1);
+    first.points = points_.Select(state_, Eigen::Vector3d::Zero(), 600, 0);
+    StatePrior prior;
+    prior.mean = state_;
+    prior.information.diagonal() << Vector6d::Constant(1e6), Eigen::Matrix<double, 9, 1>::Constant(1e4);
+    window_.Start({first}, prior);
+    WindowTracker::Result result;
+    for (int k = 0; k < 5; ++k) result = Step(*seen);
+    if (seen == &source_.room) {
+      EXPECT_EQ(result.failure, "");
+    } else {
+      EXPECT_EQ(result.failure, "the map lies on the events no better than at a false pose");
+      EXPECT_TRUE(result.restart.velocity.isZero(0));
+    }
+  }
 }
 
 TEST_F(WindowTrackerTest, RestartsFromThePredictionWithoutBiasesWhereTheStateIsImpossible) {
