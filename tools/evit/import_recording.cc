@@ -8,6 +8,7 @@
 #include "common/files/decimal_time.h"
 #include "tools/evit/import_options.h"
 #include "tools/evit/options.h"
+#include "tools/formats/calibration_files/basalt_calibration.h"
 
 namespace evit::commands {
 namespace {
@@ -37,7 +38,8 @@ void AddImportRecording(CLI::App* import) {
   struct Options {
     ImportOptions shared;
     formats::RecordingImport job;
-    std::string size, rig;
+    std::string size, rig, calibration, rig_out;
+    formats::RecordingInfo found;
   };
   auto o = std::make_shared<Options>();
   import->add_option("FILE", o->job.paths,
@@ -45,6 +47,9 @@ void AddImportRecording(CLI::App* import) {
   o->shared.AddTo(import, false);
   import->add_option("--size", o->size, "WxH of the sensor in pixels, where the recording does not say it");
   import->add_option("--rig", o->rig, "Calibration; its T_marker_body turns the truth's body into the IMU's");
+  auto* calibration = import->add_option("--calibration", o->calibration,
+                                         "Calibration in Basalt's JSON (TUM-VIE), for --rig-out");
+  import->add_option("--rig-out", o->rig_out, "Rig file to write from it")->needs(calibration);
   import->add_option("--imu", o->job.imu, "Another file with the IMU: a table, HDF5, a bag, ...");
   import->add_option("--imu-offset", o->job.imu_offset,
                      "Seconds to add to IMU stamps to get the clock of the events");

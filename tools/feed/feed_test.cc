@@ -204,6 +204,36 @@ TEST(Feed, ADriverConnectsByTcp) {
   EXPECT_EQ(out.events.size(), 10'000U);
 }
 
+TEST(Feed, DatagramsHoldWholeRecords) {
+  int port = 20'000 + getpid() % 20'000;
+  std::unique_ptr<FeedInput> input;
+  while (!input) {
+    try {
+      input = ListenUdp(port);
+    } catch (const std::runtime_error&) {
+      ++port;  // taken
+    }
+  }
+  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  for (Utime t = 0; t < 10; ++t) {
+    std::string bytes;
+    for (Utime k = 0; k < 50; ++k) AppendRecord(50 * t + k, 1, 2, 1, &bytes);
+    ASSERT_EQ(sendto(fd, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&address),
+                     sizeof address),
+              static_cast<ssize_t>(bytes.size()));
+  }
+  close(fd);
+  Published out;
+  FeedPublisher publisher({}, Channels(), 7, out.Sink());
+  RunFeed(
+      input.get(), &publisher, [&] { return out.events.size() == 500; }, kQuiet);
+  EXPECT_EQ(out.events.size(), 500U);
+}
+
 TEST(Feed, AFakeCameraSendsWhatItsLogHolds) {
   const TemporaryFolder folder("feed");
   EventArray events;
