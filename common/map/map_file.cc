@@ -1,70 +1,116 @@
 #include "common/map/map_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 
+#include "common/files/table_reader.h"
 #include "common/files/whole_file.h"
 #include "common/map/map_formats.h"
 
 namespace evit {
 
-bool ParseThree(const std::string& line, float* xyz) {
-  const char* at = line.c_str();
-  for (int k = 0; k < 3; ++k) {
-    while (*at == ' ' || *at == '\t' || *at == ',' || *at == ';') ++at;
-    char* end = nullptr;
-    xyz[k] = std::strtof(at, &end);
-    if (end == at) return false;
-    at = end;
-  }
+namespace {
+
+constexpr float kFarAway = 1e5;  // m: a float has steps of 8 mm there
+
+}  // namespace
+
+std::string LowerCase(std::string word) {
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return word;
+}
+
+bool HeaderLine(const std::string& bytes, std::size_t* at, std::string* line) {
+  const std::size_t first = bytes.find_first_of("\r\n");
+  const bool cr = first != std::string::npos && bytes[first] == '\r' && bytes.compare(first, 2, "\r\n") != 0;
+  const std::size_t end = bytes.find(cr ? '\r' : '\n', *at);
+  if (end == std::string::npos) return false;
+  *line = bytes.substr(*at, end - *at);
+  *at = end + 1;
   return true;
 }
 
-void ReadXyz(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std::string* format) {
+namespace {
+
+// Where x, y and z stand in a row: by the names of the columns, else first.
+std::array<std::size_t, 3> AxesOf(const std::vector<std::string>& head) {
+  std::array<std::size_t, 3> columns = {0, 1, 2};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto found = std::find_if(head.begin(), head.end(), [&](const std::string& name) {
+      return LowerCase(name) == std::string(1, static_cast<char>('x' + axis));
+    });
+    if (found == head.end()) return {0, 1, 2};
+    columns[axis] = static_cast<std::size_t>(found - head.begin());
+  }
+  return columns;
+}
+
+}  // namespace
+
+void ReadXyz(const std::string& bytes, CloudPoints* points, std::string* format) {
   *format = "text";
-  std::istringstream lines(bytes);
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    const std::size_t first = line.find_first_not_of(" \t\r");
-    if (first == std::string::npos || line[first] == '#') continue;
-    Eigen::Vector3f p;
-    if (!ParseThree(line, p.data())) {
-      if (points->empty() && std::isalpha(static_cast<unsigned char>(line[first])) != 0)
-        continue;  // column names
-      throw std::runtime_error("line " + std::to_string(number) + ": expected three numbers x y z");
+  if (bytes.substr(0, 4096).find('\0') != std::string::npos)
+    throw std::runtime_error("is neither a PCD nor a PLY nor text; convert it to one of them");
+  TableReader rows(bytes, "line", "x y z");
+  std::array<std::size_t, 3> columns{};
+  while (rows.Next()) {
+    if (points->empty()) {
+      if (rows.line() == 1 && rows.WordsLeft() == 1) continue;  // the count in a PTS file
+      columns = AxesOf(rows.head());
+    }
+    Eigen::Vector3d p;
+    const std::size_t last = *std::max_element(columns.begin(), columns.end());
+    for (std::size_t k = 0; k <= last; ++k) {
+      const auto axis = std::find(columns.begin(), columns.end(), k);
+      if (axis == columns.end()) {
+        rows.Word();
+      } else {
+        p[axis - columns.begin()] = rows.Number();
+      }
     }
     points->push_back(p);
   }
 }
 
-LoadedMap LoadMap(const std::string& path) {
+bool IsPly(const std::string& bytes) {
+  const std::string head = LowerCase(bytes.substr(0, 4));
+  return head == "ply\n" || head == "ply\r" || head == "ply ";
+}
+
+LoadedMap LoadMap(const std::string& path, const MapChange& change) {
   std::ifstream file(path, std::ios::binary);
   std::stringstream stream;
   if (!file || !(stream << file.rdbuf())) {
     throw std::runtime_error(path + ": cannot be read, or is empty; expected a PCD, PLY or text point cloud");
   }
-  const std::string bytes = stream.str();
+  std::string bytes = stream.str();
+  stream.str("");
+  if (bytes.rfind("\xEF\xBB\xBF", 0) == 0) bytes.erase(0, 3);  // byte order mark
   LoadedMap loaded;
-  auto& points = loaded.map.points;
+  CloudPoints cloud;
   try {
-    const std::string head = bytes.substr(0, 512);
-    if (head.rfind("ply", 0) == 0) {
-      ReadPly(bytes, &points, &loaded.format);
-    } else if (head.find("FIELDS") != std::string::npos || head.find(".PCD") != std::string::npos) {
-      ReadPcd(bytes, &points, &loaded.format);
+    const std::string head = LowerCase(bytes.substr(0, 512));
+    if (IsPly(bytes)) {
+      ReadPly(bytes, &cloud, &loaded.format);
+    } else if (head.find(".pcd") != std::string::npos || head.find("\nfields ") != std::string::npos ||
+               head.rfind("fields ", 0) == 0 || head.find("\ncolumns ") != std::string::npos) {
+      ReadPcd(bytes, &cloud, &loaded.format);
     } else {
-      ReadXyz(bytes, &points, &loaded.format);
+      ReadXyz(bytes, &cloud, &loaded.format);
     }
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(path + ": " + error.what());
   }
+  auto& points = loaded.map.points;
+  points.reserve(cloud.size());
+  for (const Eigen::Vector3d& p : cloud) points.push_back((change.T * (change.scale * p)).cast<float>());
   const std::size_t before = points.size();
   points.erase(std::remove_if(points.begin(), points.end(), [](const auto& p) { return !p.allFinite(); }),
                points.end());
@@ -126,6 +172,18 @@ MapSummary Summarize(const PointMap& map) {
 }
 
 void RequireMetres(const MapSummary& summary, const std::string& path) {
+  const float farthest = std::max(summary.min.cwiseAbs().maxCoeff(), summary.max.cwiseAbs().maxCoeff());
+  const float typical = summary.median.cwiseAbs().maxCoeff();
+  if (typical > kFarAway) {
+    char text[300];
+    std::snprintf(
+        text, sizeof text,
+        ": coordinates up to %.0f m, where single precision has steps of %.2f m; move the map to where you "
+        "are with `evit map import --transform \"1 0 0 %.0f 0 1 0 %.0f 0 0 1 %.0f 0 0 0 1\"`",
+        farthest, std::nextafter(farthest, 2 * farthest) - farthest, -std::round(summary.median.x()),
+        -std::round(summary.median.y()), -std::round(summary.median.z()));
+    throw std::runtime_error(path + text);
+  }
   const float extent = (summary.max - summary.min).maxCoeff();
   // Edges sampled more coarsely than a metre are no semi-dense map; a few stray points far away are no
   // reason, so the spacing is what tells.

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 
+#include "common/geometry/se3.h"
 #include "common/map/point_map.h"
 
 namespace evit {
@@ -14,12 +15,17 @@ struct LoadedMap {
   std::size_t n_dropped = 0;  // points left out because they were not finite (organised clouds hold such)
 };
 
-/// Reads a point cloud: PCD (ascii, binary, binary_compressed), PLY (ascii, binary little or big endian) or
-/// plain text
-/// (`x y z`, more columns ignored, '#' comments). The kind is told from the content. Throws
-/// std::runtime_error naming file, place, what is wrong and the remedy: unreadable, truncated, wrong counts,
-/// no point left.
-LoadedMap LoadMap(const std::string& path);
+/// How the points of a file are changed while they still are in double precision: scaled, then moved.
+struct MapChange {
+  double scale = 1;
+  SE3 T;
+};
+
+/// Reads a point cloud: PCD (ascii, binary, binary_compressed; moved by its VIEWPOINT), PLY (ascii, binary
+/// little or big endian) or plain text (`x y z`, more columns ignored, as tolerant as TableReader). The kind
+/// is told from the content. Throws std::runtime_error naming file, place, what is wrong and the remedy:
+/// unreadable, truncated, wrong counts, no point left.
+LoadedMap LoadMap(const std::string& path, const MapChange& change = {});
 
 /// Writes a binary PCD (x y z float), atomically. Throws std::runtime_error naming the file.
 void WritePcd(const std::string& path, const PointMap& map);
@@ -28,7 +34,8 @@ void WritePcd(const std::string& path, const PointMap& map);
 MapSummary Summarize(const PointMap& map);
 
 /// Throws std::runtime_error with the remedy where the numbers cannot be metres of an indoor or outdoor scene
-/// near the camera (a map in millimetres: nothing of it would ever be in view).
+/// near the camera (a map in millimetres: nothing of it would ever be in view; survey coordinates, which
+/// single precision cannot hold).
 void RequireMetres(const MapSummary& summary, const std::string& path);
 
 }  // namespace evit

@@ -24,13 +24,58 @@ TEST(TextMapTest, SpacesTabsCommasCommentsAndMoreColumns) {
   EXPECT_EQ(Load("x, y, z\n1, 2, 3\n").map.points.size(), 1u);  // column names
 }
 
+TEST(TextMapTest, WhatOtherProgramsWrite) {
+  const auto two = ElementsAre(Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(4, 5, 6));
+  for (const char* text : {
+           "2\n1 2 3 -1204 7 7 7\n4 5 6 -1100 8 8 8\n",                        // PTS
+           "//X,Y,Z,R,G,B\n1,2,3,9,9,9\n4,5,6,9,9,9\n",                        // CloudCompare
+           "\xEF\xBB\xBF\"x\";\"y\";\"z\"\r\n\"1\";\"2\";\"3\"\r\n4;5;6\r\n",  // spreadsheets
+           "1.000000000000000000e+00 2.0e0 3e0\n4 5 6.0\n",                    // numpy.savetxt
+           "id,x,y,z\n7,1,2,3\n8,4,5,6\n",
+           "# x y z\r1 2 3\r4 5 6\r",
+           "1 2 3 # left\n4 5 6 // right\n",
+       }) {
+    EXPECT_THAT(Load(text).map.points, two) << text;
+  }
+  EXPECT_THAT(LoadError("0,31 0,29 0,23\n"), HasSubstr("decimal commas"));
+}
+
+// Seven digits before the point: a float keeps half a metre of them.
+TEST(LoadMapTest, SurveyCoordinatesKeepTheirMillimetresWhenMoved) {
+  const SE3 T(Eigen::Quaterniond::Identity(), {-492818, -5527515, 0});
+  const std::string text = "492818.3115 5527515.2967 0.2386\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\n"
+      "property double z\nend_header\n" +
+      text;
+  const std::string pcd =
+      "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+      "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ";
+  for (const std::string& bytes :
+       {text, ply, pcd + "ascii\n" + text,
+        pcd + "binary\n" + test::Raw(492818.3115) + test::Raw(5527515.2967) + test::Raw(0.2386)}) {
+    const test::TemporaryFile file(bytes, "survey");
+    const LoadedMap loaded = LoadMap(file.path(), {1, T});
+    ASSERT_EQ(loaded.map.points.size(), 1u);
+    EXPECT_LT((loaded.map.points[0] - Eigen::Vector3f(0.3115F, 0.2967F, 0.2386F)).norm(), 1e-6) << bytes;
+    // Not moved they are of no use, which is said with the remedy.
+    try {
+      RequireMetres(Summarize(LoadMap(file.path()).map), "survey.ply");
+      ADD_FAILURE();
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("--transform \"1 0 0 -492818"));
+    }
+  }
+}
+
 TEST(TextMapTest, Broken) {
-  EXPECT_THAT(LoadError("1 2 3\n4 5\n"), HasSubstr("line 2"));
-  EXPECT_THAT(LoadError("# c\n1 2 3\n4 five 6\n"), HasSubstr("line 3"));
+  EXPECT_THAT(LoadError("1 2 3\n4 5\n"), HasSubstr("line:2"));
+  EXPECT_THAT(LoadError("# c\n1 2 3\n4 five 6\n"), HasSubstr("line:3"));
   EXPECT_THAT(LoadError("# nothing\n"), HasSubstr("the map is empty"));
   EXPECT_THAT(LoadError(""), HasSubstr("is empty"));
   EXPECT_THAT(LoadError("nan nan nan\n1 inf 2\n"), HasSubstr("none of its 2 points is finite"));
-  EXPECT_THAT(LoadError(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)), HasSubstr("line 1"));
+  EXPECT_THAT(LoadError(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)),
+              HasSubstr("neither a PCD nor a PLY nor text"));
   EXPECT_THROW(LoadMap("/nowhere/map.pcd"), std::runtime_error);
   EXPECT_THROW(LoadMap(::testing::TempDir()), std::runtime_error);
 }

@@ -1,28 +1,39 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "common/map/point_map.h"
-
-/// The formats behind LoadMap. Each takes the whole file's bytes, adds every point (finite or not) and throws
+/// The formats behind LoadMap. Each takes the whole file's bytes, adds every point (finite or not) as it
+/// stands, in double, so that survey coordinates keep their millimetres until they are moved, and throws
 /// std::runtime_error with what is wrong (the caller adds the file's name).
 namespace evit {
 
-/// `format` becomes e.g. "PCD ascii".
-void ReadPcd(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std::string* format);
+using CloudPoints = std::vector<Eigen::Vector3d>;
+
+/// `format` becomes e.g. "PCD ascii". The points are moved by the header's VIEWPOINT, which then is said in
+/// `format`.
+void ReadPcd(const std::string& bytes, CloudPoints* points, std::string* format);
 /// `intensities`: where not null, gets the vertices' "intensity" (0..1), and is empty where there is none.
-void ReadPly(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std::string* format,
+void ReadPly(const std::string& bytes, CloudPoints* points, std::string* format,
              std::vector<float>* intensities = nullptr);
-void ReadXyz(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std::string* format);
+/// Rows of x y z, more columns ignored; or, where the columns have names, those called x, y and z. A first
+/// row of one number (PTS's count) is passed over.
+void ReadXyz(const std::string& bytes, CloudPoints* points, std::string* format);
+
+/// The line that begins at `at`, which goes on behind its end: LF, CR LF or, where the file's first line ends
+/// so, CR alone. False where the line does not end.
+bool HeaderLine(const std::string& bytes, std::size_t* at, std::string* line);
 
 /// Decompresses LZF (Marc Lehmann's format, as PCD's binary_compressed uses it). False where the data is
 /// damaged or does not give exactly `size` bytes.
 bool DecompressLzf(const std::uint8_t* data, std::size_t n, std::uint8_t* out, std::size_t size);
 
-/// Three numbers at the start of a line's words; false where there are fewer or one is no number ("nan" is
-/// one).
-bool ParseThree(const std::string& line, float* xyz);
+/// Whether a file begins as a PLY does.
+bool IsPly(const std::string& bytes);
+
+/// The letters of a word in lower case.
+std::string LowerCase(std::string word);
 
 }  // namespace evit

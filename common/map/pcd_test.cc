@@ -212,6 +212,56 @@ TEST(PcdTest, OrganisedCloudLosesItsHoles) {
   EXPECT_EQ(loaded.n_dropped, 2u);
 }
 
+TEST(PcdTest, PointsAreMovedByTheViewpoint) {
+  std::string bytes = Header("x y z", "4 4 4", "F F F", "1 1 1", 1, "ascii") + "1 2 3\n";
+  const std::string none = "VIEWPOINT 0 0 0 1 0 0 0";
+  bytes.replace(bytes.find(none), none.size(),
+                "VIEWPOINT 10 20 30 0.70710678 0 0 0.70710678");  // a quarter turn about z
+  const LoadedMap loaded = Load(bytes);
+  ASSERT_EQ(loaded.map.points.size(), 1u);
+  EXPECT_LT((loaded.map.points[0] - Eigen::Vector3f(8, 21, 33)).norm(), 1e-5);
+  EXPECT_THAT(loaded.format, HasSubstr("VIEWPOINT"));
+  EXPECT_THAT(LoadError("FIELDS x y z\nVIEWPOINT 0 0 0 0 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n"),
+              HasSubstr("VIEWPOINT: the quaternion"));
+}
+
+TEST(PcdTest, OldAndOddHeaders) {
+  const auto two = ::testing::ElementsAre(Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(4, 5, -6));
+  const std::string rows = "1 2 3\n4 5 -6\n";
+  for (const char* head : {"# .PCD v.5\nVERSION .5\nCOLUMNS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 2\n",
+                           "FIELDS x y z\nWIDTH 2\nHEIGHT 1\n",            // v.6: no POINTS
+                           "FIELDS x y z\nWIDTH 1\nHEIGHT 2\n",            // organised
+                           "FIELDS X Y Z\nWIDTH 1\nHEIGHT 1\nPOINTS 2\n",  // the data agrees with POINTS
+                           "FIELDS x y z\nWIDTH 2\nHEIGHT 1\nPOINTS 1\n",  // with WIDTH
+                           "FIELDS x y z\nWIDTH 18446744073709551615\nHEIGHT 9\nPOINTS 2\n"}) {
+    EXPECT_THAT(Load(std::string(head) + "DATA ascii\n" + rows).map.points, two) << head;
+  }
+  std::string binary;
+  for (const float v : {1.0F, 2.0F, 3.0F, 4.0F, 5.0F, -6.0F}) binary += Raw(v);
+  EXPECT_THAT(Load("FIELDS x y z\r\nWIDTH 1\r\nHEIGHT 1\r\nPOINTS 2\r\nDATA binary\r\n" + binary).map.points,
+              two);
+  EXPECT_THAT(LoadError("FIELDS x y z\nWIDTH 5\nHEIGHT 1\nPOINTS 4\nDATA ascii\n" + rows),
+              HasSubstr("POINTS is 4, WIDTH x HEIGHT 5, and the data has 2 points"));
+  EXPECT_THAT(LoadError("FIELDS x y z\nPOINTS 1\nDATA ascii\n" + rows),
+              HasSubstr("1 points announced, 2 found"));
+  EXPECT_THAT(LoadError("FIELDS x y z\nDATA ascii\n" + rows), HasSubstr("neither POINTS nor WIDTH"));
+  EXPECT_THAT(LoadError("FIELDS x y z\nPOINTS 1\nDATA ascii\n0,31 0,29 0,23\n"), HasSubstr("decimal commas"));
+  const std::string cr = "# .PCD v0.7\rFIELDS x y z\rPOINTS 2\rDATA ascii\r1 2 3\r4 5 -6\r";
+  EXPECT_THAT(Load(cr).map.points, two);
+}
+
+TEST(PcdTest, IntegerCoordinates) {
+  const auto point = ::testing::ElementsAre(Eigen::Vector3f(-100, 200, 60'000));
+  EXPECT_THAT(Load(Header("x y z", "4 2 2", "I I U", "1 1 1", 1, "binary") + Raw(std::int32_t{-100}) +
+                   Raw(std::int16_t{200}) + Raw(std::uint16_t{60'000}))
+                  .map.points,
+              point);
+  EXPECT_THAT(Load(Header("x y z", "1 8 8", "I I U", "1 1 1", 1, "binary") + Raw(std::int8_t{-100}) +
+                   Raw(std::int64_t{200}) + Raw(std::uint64_t{60'000}))
+                  .map.points,
+              point);
+}
+
 TEST(PcdTest, BrokenHeaders) {
   const auto error = [](const std::string& fields, const std::string& sizes, const std::string& types,
                         const std::string& counts, std::size_t n, const std::string& data) {
@@ -219,11 +269,11 @@ TEST(PcdTest, BrokenHeaders) {
   };
   EXPECT_THAT(error("x y", "4 4", "F F", "1 1", 1, "binary"), HasSubstr("FIELDS has no z"));
   EXPECT_THAT(error("x y z", "4 4", "F F F", "1 1 1", 1, "binary"), HasSubstr("SIZE has fewer"));
-  EXPECT_THAT(error("x y z", "4 4 4", "F I F", "1 1 1", 1, "binary"), HasSubstr("field y is not float"));
+  EXPECT_THAT(error("x y z", "4 4 4", "F X F", "1 1 1", 1, "binary"), HasSubstr("field y: TYPE X of SIZE 4"));
   EXPECT_THAT(error("x y z", "4 4 4", "F F F", "1 1 0", 8, "binary"), HasSubstr("field z has a COUNT"));
   EXPECT_THAT(error("x y z", "4 4 4", "F F F", "1 1 1", 9, "binary"), HasSubstr("truncated"));
   EXPECT_THAT(error("x y z", "4 4 4", "F F F", "1 1 1", 4'000'000'000, "binary"), HasSubstr("truncated"));
-  EXPECT_THAT(error("x y z", "4 4 4", "F F F", "1 1 1", 4'000'000'000, "ascii"), HasSubstr("truncated"));
+  EXPECT_THAT(error("x y z", "4 4 4", "F F F", "1 1 1", 4'000'000'000, "ascii"), HasSubstr("cut off"));
   EXPECT_THAT(error("x y z", "4 4 4", "F F F", "1 1 1", std::size_t{1} << 60, "binary"), HasSubstr("absurd"));
   EXPECT_THAT(error("x y z w", "4 4 4 8", "F F F F", "1 1 1 99999", 1, "binary"), HasSubstr("absurd"));
   EXPECT_THAT(error("x y z", "4 4 4", "F F F", "1 1 1", 1, "lzma"), HasSubstr("\"lzma\" is not known"));
@@ -234,8 +284,8 @@ TEST(PcdTest, BrokenHeaders) {
 TEST(PcdTest, BrokenAscii) {
   const std::string head = Header("x y z", "4 4 4", "F F F", "1 1 1", 2, "ascii");
   EXPECT_THAT(LoadError(head + "1 2 3\n"), HasSubstr("2 points announced, 1 found"));
-  EXPECT_THAT(LoadError(head + "1 2 3\n4 5\n"), HasSubstr("point 1 has fewer"));
-  EXPECT_THAT(LoadError(head + "1 2 3\n4 five 6\n"), HasSubstr("\"five\" is no number"));
+  EXPECT_THAT(LoadError(head + "1 2 3\n4 5\n"), HasSubstr("ends too early"));
+  EXPECT_THAT(LoadError(head + "1 2 3\n4 five 6\n"), HasSubstr("\"five\" is not a number"));
 }
 
 }  // namespace

@@ -23,29 +23,32 @@ PhotometricMap LoadPhotometricMap(const std::string& path) {
                              kRemedy);
   }
   const std::string bytes = stream.str();
-  if (bytes.rfind("ply", 0) != 0) {
+  if (!IsPly(bytes)) {
     throw std::runtime_error(path + ": is not a PLY; expected a photometric map" + kRemedy);
   }
-  PhotometricMap all, map;
+  CloudPoints points;
+  std::vector<float> intensities;
+  PhotometricMap map;
   std::string format;
   try {
-    ReadPly(bytes, &all.points, &format, &all.intensities);
+    ReadPly(bytes, &points, &format, &intensities);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(path + ": " + error.what());
   }
-  if (all.intensities.size() != all.points.size()) {
+  if (intensities.size() != points.size()) {
     throw std::runtime_error(path +
                              ": its vertices have no property intensity: a map for photometric "
                              "tracking needs it" +
                              kRemedy);
   }
-  for (std::size_t k = 0; k < all.points.size(); ++k) {
-    const float intensity = all.intensities[k];
-    if (!all.points[k].allFinite() || !std::isfinite(intensity)) continue;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const float intensity = intensities[k];
+    const Eigen::Vector3f point = points[k].cast<float>();
+    if (!point.allFinite() || !std::isfinite(intensity)) continue;
     if (intensity < 0 || intensity > 1) {
       throw std::runtime_error(path + ": vertex " + std::to_string(k) + ": intensity is not 0..1" + kRemedy);
     }
-    map.points.push_back(all.points[k]);
+    map.points.push_back(point);
     map.intensities.push_back(intensity);
   }
   if (map.points.empty()) throw std::runtime_error(path + ": the map is empty" + kRemedy);

@@ -115,16 +115,15 @@ class Numbers {
 
 }  // namespace
 
-void ReadPly(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std::string* format,
+void ReadPly(const std::string& bytes, CloudPoints* points, std::string* format,
              std::vector<float>* intensities) {
   std::vector<Element> elements;
   std::string encoding;
   std::size_t at = 0;
   for (bool header = true; header;) {
-    const std::size_t newline = bytes.find('\n', at);
-    if (newline == std::string::npos) Fail("the PLY header has no end_header line");
-    std::istringstream words(bytes.substr(at, newline - at));
-    at = newline + 1;
+    std::string line;
+    if (!HeaderLine(bytes, &at, &line)) Fail("the PLY header has no end_header line");
+    std::istringstream words(LowerCase(line));
     std::string key;
     words >> key;
     if (key == "format") {
@@ -163,18 +162,18 @@ void ReadPly(const std::string& bytes, std::vector<Eigen::Vector3f>* points, std
     }
     if (vertex) points->reserve(element.count);
     for (std::size_t k = 0; k < element.count; ++k) {
-      Eigen::Vector3f p = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+      Eigen::Vector3d p = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
       for (const Property& property : element.properties) {
         const auto n = property.list ? numbers.Next(property.count_type) : 1.0;
         if (property.list && !(n >= 0 && n <= static_cast<double>(numbers.left())))
           Fail("a list's count is absurd");
         for (double i = 0; i < n; ++i) {
-          const auto value = static_cast<float>(numbers.Next(property.type));
+          const double value = numbers.Next(property.type);
           if (!property.list && property.name.size() == 1 && property.name[0] >= 'x' &&
               property.name[0] <= 'z') {
             p[property.name[0] - 'x'] = value;
           } else if (vertex && intensities != nullptr && !property.list && property.name == "intensity") {
-            intensities->push_back(value);
+            intensities->push_back(static_cast<float>(value));
           }
         }
       }

@@ -63,6 +63,18 @@ TEST(PlyTest, HeaderWithWindowsLineEnds) {
   EXPECT_THAT(Load(text).map.points, ElementsAre(Eigen::Vector3f(1, 2, 3)));
 }
 
+TEST(PlyTest, OldMacLineEndsAndUpperCase) {
+  const std::string text =
+      "PLY\rFORMAT ASCII 1.0\rELEMENT VERTEX 1\rPROPERTY FLOAT X\rPROPERTY FLOAT Y\r"
+      "PROPERTY FLOAT Z\rEND_HEADER\r1 2 3\r";
+  EXPECT_THAT(Load(text).map.points, ElementsAre(Eigen::Vector3f(1, 2, 3)));
+  const std::string binary =
+      "ply\rformat binary_little_endian 1.0\relement vertex 1\rproperty float X\rproperty float Y\r"
+      "property float Z\rend_header\r" +
+      Raw(1.0F) + Raw(2.0F) + Raw(3.0F);
+  EXPECT_THAT(Load(binary).map.points, ElementsAre(Eigen::Vector3f(1, 2, 3)));
+}
+
 TEST(PlyTest, Broken) {
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
   EXPECT_THAT(LoadError("ply\nformat ascii 1.0\nelement vertex 1\n"), HasSubstr("no end_header"));

@@ -73,9 +73,8 @@ void AddMapCommand(CLI::App* app) {
       ->check(CLI::PositiveNumber);
   convert->footer("Example: evit map import scan_mm.ply map.pcd --scale 0.001 --voxel 0.01");
   convert->callback([o] {
-    LoadedMap loaded = LoadMap(o->in);
     const SE3 T = o->transform.empty() ? SE3() : ParseTransform("--transform", o->transform);
-    for (Eigen::Vector3f& p : loaded.map.points) p = (T * (o->scale * p.cast<double>())).cast<float>();
+    LoadedMap loaded = LoadMap(o->in, {o->scale, T});
     if (o->voxel > 0) Thin(&loaded.map, o->voxel);
     RequireMetres(Summarize(loaded.map), o->in);
     WritePcd(o->out, loaded.map);

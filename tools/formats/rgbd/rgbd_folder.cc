@@ -3,37 +3,58 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
 #include <stdexcept>
+#include <string_view>
+
+#include "common/files/table_reader.h"
 
 namespace evit::formats {
 namespace {
 
 namespace fs = std::filesystem;
 
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
 // Rows of `columns` numbers.
 std::vector<std::vector<double>> ReadRows(const std::string& path, std::size_t columns) {
-  std::ifstream file(path);
-  if (!file)
+  if (!fs::exists(path))
     throw std::runtime_error(path +
                              ": cannot be read; expected a folder with images/, depth/, poses.txt and K.txt");
+  TableReader table(path, std::to_string(columns) + " numbers");
   std::vector<std::vector<double>> rows;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#') continue;
-    std::istringstream words(line);
-    std::vector<double> row;
-    for (double v = 0; words >> v;) row.push_back(v);
-    if (!words.eof() || row.size() != columns) {
-      throw std::runtime_error(path + ": line " + std::to_string(number) + ": expected " +
-                               std::to_string(columns) + " numbers");
-    }
-    rows.push_back(row);
+  while (table.Next()) {
+    std::vector<double>& row = rows.emplace_back();
+    for (std::size_t k = 0; k < columns; ++k) row.push_back(table.Number());
+    table.End();
   }
   return rows;
+}
+
+// The number whose digits begin at `at`, which goes on behind them, without leading zeros.
+std::string_view Digits(std::string_view name, std::size_t* at) {
+  while (*at < name.size() && name[*at] == '0') ++*at;
+  const std::size_t begin = *at;
+  while (*at < name.size() && IsDigit(name[*at])) ++*at;
+  return name.substr(begin, *at - begin);
+}
+
+// The order people give files: numbers in names by their value, 2.png before 10.png.
+bool NaturallyBefore(const std::string& a, const std::string& b) {
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (IsDigit(a[i]) && IsDigit(b[j])) {
+      const std::string_view m = Digits(a, &i), n = Digits(b, &j);
+      if (m.size() != n.size()) return m.size() < n.size();
+      if (m != n) return m < n;
+    } else {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i, ++j;
+    }
+  }
+  if (i < a.size() || j < b.size()) return j < b.size();
+  return a < b;  // the same but for leading zeros
 }
 
 SE3 PoseOf(const std::vector<double>& row, const std::string& path, std::size_t number) {
@@ -60,7 +81,7 @@ RgbdFolder::RgbdFolder(const std::string& path) : path_(path) {
   if (error || names_.empty())
     throw std::runtime_error(
         path + "/images: contains no image; expected a folder with images/, depth/, poses.txt and K.txt");
-  std::sort(names_.begin(), names_.end());
+  std::sort(names_.begin(), names_.end(), NaturallyBefore);
   const std::string poses = path + "/poses.txt", intrinsics = path + "/K.txt";
   for (const std::vector<double>& row : ReadRows(poses, 16))
     poses_.push_back(PoseOf(row, poses, poses_.size()));

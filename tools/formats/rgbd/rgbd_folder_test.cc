@@ -63,17 +63,36 @@ TEST_F(RgbdFolderTest, ReadsImageDepthPoseAndCamera) {
   EXPECT_NEAR(view.intensity[100], 10.0 / 255, 1e-6);
 }
 
+// 10.png is the last of eleven, whose pose is the last row: as text it would come behind 1.png.
+TEST_F(RgbdFolderTest, UnpaddedNumbersAreInTheirNaturalOrder) {
+  std::string poses;
+  for (int k = 0; k < 12; ++k) {
+    const std::string name = std::to_string(k) + ".png";
+    cv::imwrite(path_ + "/images/" + name, cv::Mat(24, 32, CV_8UC1, cv::Scalar(20 * k)));
+    cv::imwrite(path_ + "/depth/" + name, cv::Mat(24, 32, CV_16UC1, cv::Scalar(1500)));
+    poses += "1 0 0 " + std::to_string(k) + " 0 1 0 0 0 0 1 0 0 0 0 1\n";
+  }
+  Write("poses.txt", poses);
+  const RgbdFolder folder(path_);
+  ASSERT_EQ(folder.size(), 12u);
+  for (std::size_t k = 0; k < 12; ++k) {
+    const RgbdView view = folder.Load(k);
+    EXPECT_EQ(view.T_map_camera.p.x(), static_cast<double>(k));
+    EXPECT_NEAR(view.intensity[0], 20.0 * static_cast<double>(k) / 255, 1e-6);
+  }
+}
+
 TEST_F(RgbdFolderTest, ErrorsNameFileAndProblem) {
   EXPECT_EQ(Error(), "");
   Write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n");
   EXPECT_THAT(Error(), HasSubstr("has 1 poses, but there are 3 images"));
   Write("poses.txt", "1 0 0 0\n");
-  EXPECT_THAT(Error(), HasSubstr("poses.txt: line 1: expected 16 numbers"));
+  EXPECT_THAT(Error(), HasSubstr("poses.txt:1: the line ends too early; expected \"16 numbers\""));
   Write("poses.txt", "2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n");
   EXPECT_THAT(Error(), HasSubstr("pose 0: no camera-to-map transform"));
   SetUp();
   Write("K.txt", "30 0 15.5\n0 x 11.5\n0 0 1\n");
-  EXPECT_THAT(Error(), HasSubstr("K.txt: line 2: expected 3 numbers"));
+  EXPECT_THAT(Error(), HasSubstr("K.txt:2: \"x\" is not a number"));
   Write("K.txt", "30 0 15.5\n");
   EXPECT_THAT(Error(), HasSubstr("three rows"));
   SetUp();
