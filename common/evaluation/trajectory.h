@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,20 @@ struct StampedPose {
 /// In order of time.
 using Trajectory = std::vector<StampedPose>;
 
-/// Reads a TUM file (`t[s] x y z qx qy qz qw`, '#' comments). Stamps are parsed as decimal text, so that no
-/// microsecond is lost. Throws std::runtime_error naming file, line and what is wrong (fields, non-finite,
-/// quaternion norm, order).
-Trajectory ReadTum(const std::string& path);
+/// Rows of a TUM file that were passed over: a time that is repeated, goes back, or lies far ahead of all
+/// that follow.
+struct TumSkipped {
+  std::int64_t rows = 0, first_line = 0;
+  /// "3 rows skipped, the first in line 12: ..."; empty where none was.
+  std::string Text(const std::string& path) const;
+};
+
+/// Reads a TUM file (`t[s] x y z qx qy qz qw`; as tolerant as TableReader; times in ns or us are told by
+/// their digits). Stamps are parsed as decimal text, so that no microsecond is lost. Rows out of order are
+/// passed over and told through `skipped`; where that is null, they are an error. Throws std::runtime_error
+/// naming file, line and what is wrong (fields, non-finite, quaternion norm, more than a twentieth of the
+/// rows out of order).
+Trajectory ReadTum(const std::string& path, TumSkipped* skipped = nullptr);
 
 /// One TUM line, stamp with six decimals, pose with nine significant ones. No newline.
 std::string TumLine(const StampedPose& pose);

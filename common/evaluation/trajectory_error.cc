@@ -1,5 +1,6 @@
 #include "common/evaluation/trajectory_error.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -7,34 +8,43 @@
 #include <iterator>
 #include <vector>
 
+#include "common/evaluation/trajectory_pairs.h"
+
 namespace evit {
 namespace {
 
-struct Pair {
-  Utime t;
-  SE3 truth, estimate;
-};
+using Pairs = std::vector<TrajectoryPair>;
 
-std::vector<Pair> MakePairs(const Trajectory& truth, const Trajectory& estimate) {
-  std::vector<Pair> pairs;
-  for (const StampedPose& e : estimate) {
-    SE3 at;
-    if (PoseAt(truth, e.t, &at)) pairs.push_back({e.t, at, e.pose});
-  }
-  return pairs;
+// Spread of positions across their main direction must be more than this for an alignment by positions: noise
+// has as much.
+constexpr double kMinSpread = 0.01, kMinSpreadRatio = 0.02;  // m, and of the spread along it
+
+// Whether positions say how to turn one trajectory onto the other.
+bool Spreads(const Pairs& pairs, SE3 TrajectoryPair::*side) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const TrajectoryPair& p : pairs) mean += (p.*side).p;
+  mean /= static_cast<double>(pairs.size());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const TrajectoryPair& p : pairs)
+    covariance += ((p.*side).p - mean) * ((p.*side).p - mean).transpose() / static_cast<double>(pairs.size());
+  const Eigen::Vector3d variances =  // ascending
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
+  const double across = std::sqrt(std::max(0.0, variances[1])),
+               along = std::sqrt(std::max(0.0, variances[2]));
+  return across > kMinSpread && across > kMinSpreadRatio * along;
 }
 
 // T_truth_estimate that the estimate is moved by.
-SE3 Align(const std::vector<Pair>& pairs, Alignment alignment) {
+SE3 Align(const Pairs& pairs, Alignment alignment) {
   if (alignment == Alignment::kFirstPair) return pairs.front().truth * pairs.front().estimate.Inverse();
   if (alignment == Alignment::kNone) return {};
   // Umeyama 1991 without scale.
   Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = Eigen::Vector3d::Zero();
-  for (const Pair& p : pairs) a += p.truth.p, b += p.estimate.p;
+  for (const TrajectoryPair& p : pairs) a += p.truth.p, b += p.estimate.p;
   a /= static_cast<double>(pairs.size());
   b /= static_cast<double>(pairs.size());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const Pair& p : pairs) covariance += (p.truth.p - a) * (p.estimate.p - b).transpose();
+  for (const TrajectoryPair& p : pairs) covariance += (p.truth.p - a) * (p.estimate.p - b).transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
   if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign(2, 2) = -1;
@@ -42,12 +52,12 @@ SE3 Align(const std::vector<Pair>& pairs, Alignment alignment) {
   return {Eigen::Quaterniond(R).normalized(), a - R * b};
 }
 
-TrajectoryError ErrorOf(const std::vector<Pair>& pairs, const SE3& T_truth_estimate) {
+TrajectoryError ErrorOf(const Pairs& pairs, const SE3& T_truth_estimate) {
   TrajectoryError error;
   error.n_pairs = static_cast<int>(pairs.size());
   if (pairs.empty()) return error;
   double position = 0, orientation = 0;
-  for (const Pair& p : pairs) {
+  for (const TrajectoryPair& p : pairs) {
     const SE3 moved = T_truth_estimate * p.estimate;
     const double d = (moved.p - p.truth.p).norm(), angle = AngularDistance(moved.q, p.truth.q);
     position += d * d;
@@ -69,8 +79,12 @@ double Coverage(const Trajectory& truth, const Trajectory& estimate) {
 }  // namespace
 
 TrajectoryError AbsoluteError(const Trajectory& truth, const Trajectory& estimate, Alignment alignment) {
-  const std::vector<Pair> pairs = MakePairs(truth, estimate);
-  TrajectoryError error = pairs.empty() ? TrajectoryError{} : ErrorOf(pairs, Align(pairs, alignment));
+  const Pairs pairs = MakePairs(truth, estimate);
+  TrajectoryError error;
+  error.n_pairs = static_cast<int>(pairs.size());
+  error.determined = alignment != Alignment::kUmeyama ||
+                     (Spreads(pairs, &TrajectoryPair::truth) && Spreads(pairs, &TrajectoryPair::estimate));
+  if (error.scored()) error = ErrorOf(pairs, Align(pairs, alignment));
   error.coverage = Coverage(truth, estimate);
   return error;
 }
@@ -91,14 +105,15 @@ TrajectoryError MilestoneError(const Trajectory& truth, const Trajectory& estima
 }
 
 TrajectoryError RelativeError(const Trajectory& truth, const Trajectory& estimate, Utime delta) {
-  std::vector<Pair> steps;
-  for (const StampedPose& begin : estimate) {
-    SE3 truth_a, truth_b, estimate_b;
-    if (!PoseAt(truth, begin.t, &truth_a) || !PoseAt(truth, begin.t + delta, &truth_b) ||
-        !PoseAt(estimate, begin.t + delta, &estimate_b)) {
+  const Utime truth_hole = MaxHole(truth), estimate_hole = MaxHole(estimate);
+  Pairs steps;
+  for (const TrajectoryPair& begin : MakePairs(truth, estimate)) {
+    SE3 truth_b, estimate_b;
+    if (!PoseAt(truth, begin.t + delta, &truth_b, truth_hole) ||
+        !PoseAt(estimate, begin.t + delta, &estimate_b, estimate_hole)) {
       continue;
     }
-    steps.push_back({begin.t, truth_a.Inverse() * truth_b, begin.pose.Inverse() * estimate_b});
+    steps.push_back({begin.t, begin.truth.Inverse() * truth_b, begin.estimate.Inverse() * estimate_b});
   }
   TrajectoryError error = ErrorOf(steps, {});
   error.coverage = Coverage(truth, estimate);

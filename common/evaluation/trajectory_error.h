@@ -7,10 +7,11 @@ namespace evit {
 enum class Alignment {
   kNone,       // map frame as it is
   kFirstPair,  // SE(3) of the first pair (the paper's protocol)
-  kUmeyama,    // least-squares SE(3) over all pairs (no scale)
+  kUmeyama,    // least-squares SE(3) over all pairs (no scale); not determined by a straight line or a
+               // standstill
 };
 
-/// Absolute trajectory error over the pairs (estimate, truth interpolated at the estimate's stamps).
+/// Absolute trajectory error over the pairs of MakePairs (common/evaluation/trajectory_pairs.h).
 struct TrajectoryError {
   int n_pairs = 0;
   double position_rmse = 0;     // m
@@ -18,6 +19,11 @@ struct TrajectoryError {
   double position_max = 0;      // m
   double orientation_max = 0;   // rad
   double coverage = 0;          // 0..1: share of the truth's time span that the estimate reaches
+  bool determined = true;       // false: the positions do not say how to align (Alignment::kUmeyama)
+
+  /// Whether the figures mean something: enough pairs, and an alignment that these determine.
+  bool scored() const { return n_pairs >= kMinPairs && determined; }
+  static constexpr int kMinPairs = 3;
 };
 TrajectoryError AbsoluteError(const Trajectory& truth, const Trajectory& estimate, Alignment alignment);
 

@@ -52,6 +52,31 @@ TEST_F(TumFile, CommentsCommasAndBlankLinesAreFine) {
   EXPECT_EQ(ReadTum(path_).size(), 2u);
 }
 
+TEST_F(TumFile, RepeatedAndBackwardStampsAreNamedAndSkipped) {
+  std::string text;
+  for (int k = 0; k < 100; ++k) {
+    const int t = k == 40 ? 39 : k == 60 ? 20 : k == 80 ? 5000 : k;  // repeated, backward, far ahead
+    text += std::to_string(t) + " " + std::to_string(k) + " 0 0 0 0 0 1\n";
+  }
+  std::ofstream(path_) << text;
+  TumSkipped skipped;
+  const Trajectory read = ReadTum(path_, &skipped);
+  EXPECT_EQ(read.size(), 97U);
+  EXPECT_EQ(skipped.rows, 3);
+  EXPECT_NE(skipped.Text(path_).find("3 rows skipped, the first in line 41"), std::string::npos);
+  EXPECT_EQ(read.back().pose.p.x(), 99);
+  EXPECT_THROW(ReadTum(path_), std::runtime_error);  // nobody to tell
+  std::ofstream(path_) << text << text;              // half of it: no slip
+  EXPECT_THROW(ReadTum(path_, &skipped), std::runtime_error);
+}
+
+TEST_F(TumFile, NanosecondsAndExponentsAreTold) {
+  std::ofstream(path_) << "#timestamp [ns],x,y,z,qx,qy,qz,qw\n1642661138300000000,1,2,3,0,0,0,1\n";
+  EXPECT_EQ(ReadTum(path_)[0].t, 1'642'661'138'300'000);
+  std::ofstream(path_) << "1.642661138299999952e+09 1e0 2e0 3e0 0 0 0 1.0e+00\n";
+  EXPECT_EQ(ReadTum(path_)[0].t, 1'642'661'138'300'000);
+}
+
 TEST_F(TumFile, ComplaintsNameFileLineAndFault) {
   const auto expect = [this](const std::string& text, const std::string& where, const std::string& what) {
     const std::string complaint = Complaint(text);

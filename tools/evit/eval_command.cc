@@ -6,6 +6,7 @@
 
 #include "common/evaluation/consistency.h"
 #include "common/evaluation/trajectory_error.h"
+#include "common/evaluation/trajectory_pairs.h"
 #include "tools/evit/commands.h"
 #include "tools/pictures/consistency_plot.h"
 
@@ -27,7 +28,7 @@ constexpr Row kRows[] = {
     {"none", Alignment::kNone}, {"first pair", Alignment::kFirstPair}, {"Umeyama", Alignment::kUmeyama}};
 
 nlohmann::json ToJson(const TrajectoryError& e) {
-  if (e.n_pairs == 0) return nullptr;
+  if (!e.scored()) return nullptr;
   return {{"pairs", e.n_pairs},
           {"position_rmse_cm", 100 * e.position_rmse},
           {"orientation_rmse_deg", kDegrees * e.orientation_rmse},
@@ -48,20 +49,26 @@ nlohmann::json ToJson(const Consistency& c) {
 }
 
 void PrintCell(const TrajectoryError& e) {
-  if (e.n_pairs == 0) {
+  if (!e.scored()) {
     std::printf("  %16s", "-");
   } else {
     std::printf("  %7.2f / %6.2f", 100 * e.position_rmse, kDegrees * e.orientation_rmse);
   }
 }
 
+Trajectory ReadTumAndTell(const std::string& path) {
+  TumSkipped skipped;
+  Trajectory trajectory = ReadTum(path, &skipped);
+  if (skipped.rows > 0) std::fprintf(stderr, "evit eval: %s\n", skipped.Text(path).c_str());
+  return trajectory;
+}
+
 void Evaluate(const EvalOptions& o) {
-  const Trajectory truth = ReadTum(o.truth), estimate = ReadTum(o.estimate);
+  const Trajectory truth = ReadTumAndTell(o.truth), estimate = ReadTumAndTell(o.estimate);
   const TrajectoryError whole = AbsoluteError(truth, estimate, Alignment::kNone);
-  if (whole.n_pairs == 0) {
-    throw std::runtime_error(o.estimate + " and " + o.truth +
-                             " do not overlap in time; are they from the same sequence?");
-  }
+  if (!whole.scored())
+    throw std::runtime_error(o.estimate + " against " + o.truth + ": " + TooFewPairsText(truth, estimate));
+  const std::string unscored = UnscoredText(truth, estimate);
   const TrajectoryError relative = RelativeError(truth, estimate, kMicrosPerSecond);
   Consistency consistency;
   if (!o.covariance.empty()) {
@@ -73,7 +80,11 @@ void Evaluate(const EvalOptions& o) {
     if (!o.plot.empty()) pictures::PlotConsistency(o.plot, ConsistencyText(consistency), consistency);
   }
   if (o.json) {
-    nlohmann::json out{{"truth", o.truth}, {"estimate", o.estimate}, {"coverage", whole.coverage}};
+    nlohmann::json out{{"truth", o.truth},
+                       {"estimate", o.estimate},
+                       {"coverage", whole.coverage},
+                       {"poses", estimate.size()},
+                       {"not_scored", unscored}};
     if (!o.covariance.empty()) out["consistency"] = ToJson(consistency);
     for (const Row& row : kRows) {
       nlohmann::json& j = out["ate"][row.name];
@@ -87,7 +98,9 @@ void Evaluate(const EvalOptions& o) {
     std::printf("%s\n", out.dump(2).c_str());
     return;
   }
-  std::printf("%d poses, %.0f %% of the truth's time reached\n\n", whole.n_pairs, 100 * whole.coverage);
+  std::printf("%d pairs, %.0f %% of the truth's time reached\n", whole.n_pairs, 100 * whole.coverage);
+  if (!unscored.empty()) std::printf("%s\n", unscored.c_str());
+  std::printf("\n");
   std::printf("ATE RMSE, cm / deg  %16s  %16s  %16s  %16s\n", "all", "30 %", "50 %", "100 %");
   for (const Row& row : kRows) {
     std::printf("  %-16s", row.name);
@@ -96,9 +109,14 @@ void Evaluate(const EvalOptions& o) {
       PrintCell(MilestoneError(truth, estimate, row.alignment, share));
     std::printf("\n");
   }
+  if (!AbsoluteError(truth, estimate, Alignment::kUmeyama).determined) {
+    std::printf(
+        "Umeyama is not determined: positions on a straight line, or on one spot, do not say how to turn "
+        "the estimate\n");
+  }
   std::printf("\nlargest error (no alignment): %.2f cm, %.2f deg\n", 100 * whole.position_max,
               kDegrees * whole.orientation_max);
-  if (relative.n_pairs > 0) {
+  if (relative.scored()) {
     std::printf("RPE over 1 s: %.2f cm, %.2f deg\n", 100 * relative.position_rmse,
                 kDegrees * relative.orientation_rmse);
   }

@@ -76,7 +76,7 @@ RunScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estimate, st
     for (std::size_t m = 0; m < kMilestones.size(); ++m) {
       const TrajectoryError e = MilestoneError(truth, tracked, kAlignments[a], kMilestones[m]);
       constexpr double kDegrees = 57.295779513082323;
-      if (e.n_pairs > 0) score.ate[a][m] = Ate{100 * e.position_rmse, kDegrees * e.orientation_rmse};
+      if (e.scored()) score.ate[a][m] = Ate{100 * e.position_rmse, kDegrees * e.orientation_rmse};
     }
   }
   score.tracked = AbsoluteError(truth, tracked, Alignment::kNone).coverage;
