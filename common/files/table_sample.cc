@@ -72,8 +72,21 @@ TableSample SampleTable(const std::string& path, const std::string& layout, std:
   return sample;
 }
 
-std::optional<TimeUnit> UnitInName(const std::vector<std::string>& words) {
-  for (const std::string& word : words) {
+std::vector<ColumnName> NamedColumns(const std::vector<std::string>& head) {
+  std::vector<ColumnName> columns;
+  bool in_unit = false;
+  for (const std::string& word : head) {
+    const std::size_t bracket = in_unit ? 0 : word.find_first_of("[(");
+    if (!in_unit && (bracket != 0 || columns.empty())) columns.push_back({word.substr(0, bracket), ""});
+    if (bracket == std::string::npos) continue;
+    columns.back().unit += word.substr(bracket);
+    in_unit = word.find_first_of("])") == std::string::npos;
+  }
+  return columns;
+}
+
+std::optional<TimeUnit> UnitInName(const ColumnName& name) {
+  for (const std::string& word : {name.unit, name.name}) {
     for (const std::string& part : Letters(word)) {
       if (const auto unit = UnitNamed(part)) return unit;
     }
@@ -82,18 +95,11 @@ std::optional<TimeUnit> UnitInName(const std::vector<std::string>& words) {
 }
 
 TimeUnit UnitOfStamps(const TableSample& sample, std::size_t column, double slowest_s) {
-  // A head of more words than columns has its units apart: those of the first column come before all others.
-  std::vector<std::string> name;
+  const std::vector<ColumnName> names = NamedColumns(sample.head);
   const std::size_t columns = sample.rows.empty() ? 0 : sample.rows.front().size();
-  if (column == 0) {
-    name.assign(
-        sample.head.begin(),
-        sample.head.begin() + std::min<std::ptrdiff_t>(2, static_cast<std::ptrdiff_t>(sample.head.size())));
-    if (sample.head.size() <= columns && name.size() > 1) name.pop_back();
-  } else if (column < sample.head.size() && sample.head.size() <= columns) {
-    name = {sample.head[column]};
+  if (column < names.size() && (column == 0 || names.size() == columns)) {
+    if (const auto said = UnitInName(names[column])) return *said;
   }
-  if (const auto said = UnitInName(name)) return *said;
   std::vector<double> stamps;
   std::optional<TimeUnit> date;
   bool whole = true;

@@ -17,9 +17,17 @@ struct TableSample {
 /// Up to `max_rows` rows. Throws as TableReader does.
 TableSample SampleTable(const std::string& path, const std::string& layout, std::size_t max_rows = 1000);
 
-/// The unit that a column's name says: "timestamp [ns]", "t_us", "time(ms)", "t[s]"; the words of a name may
-/// be given one by one. Nothing where it says none.
-std::optional<TimeUnit> UnitInName(const std::vector<std::string>& words);
+/// A column's name and the unit behind it: "timestamp [ns]", "w_x[rad s^-1]", "time (ms)".
+struct ColumnName {
+  std::string name, unit;
+};
+
+/// The words of a head as columns: what stands in brackets belongs to the name before it.
+std::vector<ColumnName> NamedColumns(const std::vector<std::string>& head);
+
+/// The unit that a column's name says: "timestamp [ns]", "t_us", "time(ms)", "t[s]". Nothing where it says
+/// none.
+std::optional<TimeUnit> UnitInName(const ColumnName& name);
 
 /// The unit of a column of stamps: what the head says, else what the number of digits of a date says; for
 /// whole numbers that count from zero, microseconds or nanoseconds where the rows would otherwise be more

@@ -26,6 +26,16 @@ TEST_F(TableSampleTest, KeepsHeadAndFirstRows) {
   EXPECT_EQ(sample.rows, (std::vector<std::vector<std::string>>{{"1", "2"}, {"3"}}));
 }
 
+TEST_F(TableSampleTest, UnitsBelongToTheNamesBeforeThem) {
+  const auto columns = NamedColumns(Sample("#timestamp [ns],w_RS_S_x [rad s^-1],a(m/s^2),p\n5,1,2,3\n").head);
+  ASSERT_EQ(columns.size(), 4U);
+  EXPECT_EQ(columns[0].name, "timestamp");
+  EXPECT_EQ(columns[0].unit, "[ns]");
+  EXPECT_EQ(columns[1].name, "w_RS_S_x");
+  EXPECT_EQ(columns[2].name, "a");
+  EXPECT_EQ(columns[3].name, "p");
+}
+
 TEST_F(TableSampleTest, UnitOfStampsIsTold) {
   // Events: at most 10 ms apart.
   for (const auto& [text, unit] : {

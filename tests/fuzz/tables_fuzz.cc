@@ -15,7 +15,7 @@ void Read(int table, const std::string& path) {
   evit::formats::DropCounts dropped;
   switch (table) {
     case 0:
-      evit::formats::ReadImuFile(path);
+      evit::formats::ReadImuFile(path, &dropped);
       break;
     case 1:
       evit::ReadTum(path);

@@ -32,10 +32,10 @@ class RosBytes {
     for (const double v : values) Put(v);
     return *this;
   }
-  RosBytes& Header(Utime t) {
-    const std::string frame = "body";
-    Put(std::uint32_t{7}).Time(t).Put(static_cast<std::uint32_t>(frame.size()));
-    bytes_ += frame;
+  RosBytes& Header(Utime t) { return Put(std::uint32_t{7}).Time(t).String("body"); }
+  RosBytes& String(const std::string& text) {
+    Put(static_cast<std::uint32_t>(text.size()));
+    bytes_ += text;
     return *this;
   }
   const std::string& bytes() const { return bytes_; }
@@ -67,6 +67,20 @@ inline RawMessage PoseMessage(const StampedPose& s) {
   out.Header(s.t).Doubles({s.pose.p.x(), s.pose.p.y(), s.pose.p.z()});
   out.Doubles({s.pose.q.x(), s.pose.q.y(), s.pose.q.z(), s.pose.q.w()});
   return {"geometry_msgs/PoseStamped", out.bytes()};
+}
+
+/// The pose as one of the other types that tell of it.
+inline RawMessage TruthMessage(const std::string& type, const StampedPose& s) {
+  const bool odometry = type == "nav_msgs/Odometry";
+  RosBytes out;
+  out.Header(s.t);
+  if (odometry || type == "geometry_msgs/TransformStamped") out.String("base_link");
+  out.Doubles({s.pose.p.x(), s.pose.p.y(), s.pose.p.z()});
+  out.Doubles({s.pose.q.x(), s.pose.q.y(), s.pose.q.z(), s.pose.q.w()});
+  if (odometry || type == "geometry_msgs/PoseWithCovarianceStamped")
+    out.Doubles(std::vector<double>(36, 0.5));
+  if (odometry) out.Doubles(std::vector<double>(6 + 36, 0.25));
+  return {type, out.bytes()};
 }
 
 /// Recorded `delay` us after `t`.

@@ -1,5 +1,10 @@
 #include <cstdio>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
+#include "common/service/stop_signals.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/import_options.h"
 #include "tools/evit/options.h"
@@ -7,6 +12,16 @@
 
 namespace evit::commands {
 namespace {
+
+// In m/s^2 and rad/s.
+const std::map<std::string, double> kAccelUnits{{"m/s^2", 1}, {"g", 9.80665}, {"mg", 9.80665e-3}};
+const std::map<std::string, double> kGyroUnits{{"rad/s", 1}, {"deg/s", 0.017453292519943295}};
+
+std::vector<std::string> UnitNames(const std::map<std::string, double>& units) {
+  std::vector<std::string> names;
+  for (const auto& [name, scale] : units) names.push_back(name);
+  return names;
+}
 
 void PrintDropped(const formats::DropCounts& dropped, const char* what) {
   const std::string text = formats::DropText(dropped, what);
@@ -22,10 +37,20 @@ void ImportOptions::AddTo(CLI::App* source, bool require_out) {
       "--T-map-world", transform,
       "16 numbers, row-major 4x4, from the frame of the ground truth to that of the map (default: identity)");
   source->add_option("--seconds", seconds, "A:B in s after the first event, take only this part");
+  source->add_option("--accel-unit", accel_unit, "The accelerometer's unit")
+      ->check(CLI::IsMember(UnitNames(kAccelUnits)))
+      ->capture_default_str();
+  source->add_option("--gyro-unit", gyro_unit, "The gyro's unit")
+      ->check(CLI::IsMember(UnitNames(kGyroUnits)))
+      ->capture_default_str();
+  source->add_flag("--any-imu", any_imu, "Take the IMU even where its units or columns look wrong");
 }
 
 void ImportOptions::Apply(formats::ImportTarget* target) const {
   target->out = out;
+  target->accel_scale = kAccelUnits.at(accel_unit);
+  target->gyro_scale = kGyroUnits.at(gyro_unit);
+  target->any_imu = any_imu;
   if (!transform.empty()) target->T_map_world = ParseTransform("--T-map-world", transform);
   if (!seconds.empty()) target->seconds = ParseSeconds(seconds);
 }
@@ -33,9 +58,18 @@ void ImportOptions::Apply(formats::ImportTarget* target) const {
 void RunImport(const std::string& label, const formats::ImportTarget& target, const std::string& no_truth,
                const std::function<formats::ImportSummary(const std::function<void(double)>&)>& work) {
   formats::ImportSummary s;
-  {
+  const StopSignals signals;
+  try {
     terminal::ProgressBar bar("importing " + label);
-    s = work([&](double share) { bar.Show(share); });
+    s = work([&](double share) {
+      // Thrown, so that all that was begun is taken away on the way out.
+      if (signals.received()) throw std::runtime_error("interrupted");
+      bar.Show(share);
+    });
+  } catch (const std::runtime_error&) {
+    if (!signals.received()) throw;
+    std::fprintf(stderr, "evit import: interrupted; nothing was written\n");
+    throw CLI::RuntimeError(130);
   }
   std::printf(
       "%s: %.1f s, %lld events in %lld packets (%.2f million/s), %lld IMU samples, %lld truth poses\n",

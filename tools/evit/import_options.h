@@ -16,7 +16,8 @@ void AddImportRpg(CLI::App* import);
 void AddImportBag(CLI::App* import);
 
 struct ImportOptions {
-  std::string out, transform, seconds;
+  std::string out, transform, seconds, accel_unit = "m/s^2", gyro_unit = "rad/s";
+  bool any_imu = false;
 
   void AddTo(CLI::App* source, bool require_out = true);
   /// Throws std::runtime_error naming the option.

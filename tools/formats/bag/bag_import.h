@@ -10,7 +10,7 @@
 namespace evit::formats {
 
 /// A recording in one or several ROS 1 bags, to become an LCM log: dvs_msgs or prophesee_event_msgs
-/// EventArray, sensor_msgs/Imu and, where there is one, geometry_msgs/PoseStamped as ground truth.
+/// EventArray, sensor_msgs/Imu and, where there is one, a topic of kTruthTypes as ground truth.
 struct BagImport : ImportTarget {
   std::vector<std::string> files;
   Rig rig;  // its camera's size bounds the events; T_marker_body turns the truth's body into the IMU's

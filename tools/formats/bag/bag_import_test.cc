@@ -36,6 +36,7 @@ class BagImportTest : public ::testing::Test {
           {kStart + Utime{5000} * k, {Eigen::Quaterniond(0.5, h, 0.5, 0.5), {0.1 * k, 1.0 / 3, -0.3}}});
     }
     job_.out = Path("out.lcmlog");
+    job_.any_imu = true;  // made-up numbers
     job_.rig.camera.width = 240;
     job_.rig.camera.height = 180;
   }
@@ -116,6 +117,31 @@ TEST_F(BagImportTest, TruthBecomesTheBodyInTheMap) {
   EXPECT_TRUE(out.truth[9].pose.p.isApprox(made_.truth[9].pose * up + moved, 1e-12));
 }
 
+TEST_F(BagImportTest, TruthMayBeOdometryOrATransform) {
+  for (const char* type :
+       {"geometry_msgs/TransformStamped", "geometry_msgs/PoseWithCovarianceStamped", "nav_msgs/Odometry"}) {
+    job_.files = {Path("truth.bag")};
+    {
+      rosbag::Bag bag(job_.files[0], rosbag::bagmode::Write);
+      RecordEvents(&bag, kDvs, 0, made_.events.size());
+      RecordImu(&bag);
+      for (const StampedPose& s : made_.truth) Record(&bag, "/truth", s.t, TruthMessage(type, s));
+    }
+    Import();
+    ExpectSame(ReadImported(job_.out).truth, made_.truth);
+  }
+}
+
+TEST_F(BagImportTest, APoseIsPreferredToAnOdometry) {
+  MakeBag();
+  rosbag::Bag bag(Path("all.bag"), rosbag::bagmode::Append);
+  for (const StampedPose& s : made_.truth)
+    Record(&bag, "/vio", s.t, TruthMessage("nav_msgs/Odometry", {s.t, {}}));
+  bag.close();
+  Import();
+  ExpectSame(ReadImported(job_.out).truth, made_.truth);
+}
+
 TEST_F(BagImportTest, InvalidEntriesAreCountedAndDropped) {
   MakeBag();
   rosbag::Bag bag(Path("all.bag"), rosbag::bagmode::Append);
@@ -132,11 +158,11 @@ TEST_F(BagImportTest, InvalidEntriesAreCountedAndDropped) {
   Record(&bag, "/pose", t, PoseMessage({kStart, {}}));
   bag.close();
   const ImportSummary summary = Import();
-  EXPECT_EQ(summary.dropped_events.disorder, 1);
+  EXPECT_EQ(summary.dropped_events.late, 1);
   EXPECT_EQ(summary.dropped_events.outside, 2);
-  EXPECT_EQ(summary.dropped_imu.disorder, 1);
+  EXPECT_EQ(summary.dropped_imu.late, 1);
   EXPECT_EQ(summary.dropped_imu.invalid, 1);
-  EXPECT_EQ(summary.dropped_truth.disorder, 1);
+  EXPECT_EQ(summary.dropped_truth.late, 1);
   EXPECT_EQ(summary.dropped_truth.invalid, 1);
   const ImportedLog out = ReadImported(job_.out);
   made_.events.push_back(t, 239, 179, 1);

@@ -43,9 +43,10 @@ class Cursor {
   // std_msgs/Header: u32 seq, time stamp, string frame_id.
   Utime Header() {
     const Utime stamp = LoadTime(Take(12, "header") + 4);
-    Take(Load<std::uint32_t>(Take(4, "header.frame_id")), "header.frame_id");
+    String("header.frame_id");
     return stamp;
   }
+  void String(const char* field) { Take(Load<std::uint32_t>(Take(4, field)), field); }
   void End() const {
     if (left_ == 0) return;
     throw std::runtime_error(std::to_string(left_) +
@@ -69,7 +70,7 @@ void DecodeEventArray(const std::uint8_t* data, std::size_t size, EventFilter* f
   for (std::size_t k = 0; k < n; ++k, event += kEventBytes) {
     const Utime t = LoadTime(event + 4);
     const auto x = Load<std::uint16_t>(event), y = Load<std::uint16_t>(event + 2);
-    if (filter->Keep(t, x, y)) events->push_back(t, x, y, event[12] != 0 ? 1 : 0);
+    if (filter->Keep(x, y)) events->push_back(t, x, y, filter->Polarity(event[12]));
   }
 }
 
@@ -86,12 +87,18 @@ ImuSample DecodeImu(const std::uint8_t* data, std::size_t size) {
   return s;
 }
 
-StampedPose DecodePoseStamped(const std::uint8_t* data, std::size_t size) {
+StampedPose DecodePose(const std::string& type, const std::uint8_t* data, std::size_t size) {
+  const bool odometry = type == "nav_msgs/Odometry", transform = type == "geometry_msgs/TransformStamped";
+  const bool covariance = odometry || type == "geometry_msgs/PoseWithCovarianceStamped";
   Cursor message(data, size);
   StampedPose s;
   s.t = message.Header();
-  message.Doubles(3, s.pose.p.data(), "pose.position");
-  message.Doubles(4, s.pose.q.coeffs().data(), "pose.orientation");  // both x y z w
+  if (odometry || transform) message.String("child_frame_id");
+  message.Doubles(3, s.pose.p.data(), transform ? "transform.translation" : "pose.position");
+  message.Doubles(4, s.pose.q.coeffs().data(),  // both x y z w
+                  transform ? "transform.rotation" : "pose.orientation");
+  if (covariance) message.Take(sizeof(double) * 36, "pose.covariance");
+  if (odometry) message.Take(sizeof(double) * (6 + 36), "twist");
   message.End();
   return s;
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "common/evaluation/trajectory.h"
 #include "common/events/event.h"
@@ -16,14 +17,17 @@ namespace evit::formats {
 
 inline constexpr const char* kEventTypes[] = {"dvs_msgs/EventArray", "prophesee_event_msgs/EventArray"};
 inline constexpr const char* kImuTypes[] = {"sensor_msgs/Imu"};
-inline constexpr const char* kTruthTypes[] = {"geometry_msgs/PoseStamped"};
+/// In the order they are preferred: an Odometry is more often somebody's estimate.
+inline constexpr const char* kTruthTypes[] = {"geometry_msgs/PoseStamped", "geometry_msgs/TransformStamped",
+                                              "geometry_msgs/PoseWithCovarianceStamped", "nav_msgs/Odometry"};
 
 /// Appends the events that pass the filter.
 void DecodeEventArray(const std::uint8_t* data, std::size_t size, EventFilter* filter, EventArray* events);
 
 ImuSample DecodeImu(const std::uint8_t* data, std::size_t size);
 
-/// The quaternion as it stands, of whatever length.
-StampedPose DecodePoseStamped(const std::uint8_t* data, std::size_t size);
+/// A message of one of kTruthTypes: the pose of its child or its own. The quaternion as it stands, of
+/// whatever length.
+StampedPose DecodePose(const std::string& type, const std::uint8_t* data, std::size_t size);
 
 }  // namespace evit::formats

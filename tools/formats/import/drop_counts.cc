@@ -1,21 +1,39 @@
 #include "tools/formats/import/drop_counts.h"
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace evit::formats {
 
 std::string DropText(const DropCounts& dropped, const std::string& what) {
-  if (dropped.total() == 0) return "";
+  const std::string sorted =
+      dropped.sorted > 0 ? std::to_string(dropped.sorted) + " " + what + " put into order of time" : "";
+  if (dropped.total() == 0) return sorted;
   std::string reasons;
   for (const auto& [count, reason] :
-       {std::pair(dropped.disorder, "not later than the one before"),
+       {std::pair(dropped.late, "not later than the one before, or by more than 50 ms late"),
+        std::pair(dropped.outlier, "with a time far ahead of those that follow"),
         std::pair(dropped.invalid, "not a number, or no rotation"),
         std::pair(dropped.outside, "outside the sensor (is the image size right?)"),
         std::pair(dropped.unstamped, "before the stream's first time stamp")}) {
     if (count > 0) reasons += (reasons.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
   }
-  return std::to_string(dropped.total()) + " " + what + " dropped: " + reasons;
+  return std::to_string(dropped.total()) + " " + what + " dropped: " + reasons +
+         (sorted.empty() ? "" : "; " + sorted);
+}
+
+void RequireMostKept(const std::string& name, const DropCounts& dropped, std::int64_t kept,
+                     const std::string& what) {
+  constexpr std::int64_t kFew = 10, kShare = 20;  // at most one in 20
+  const std::int64_t n = dropped.total();
+  if (n == 0) return;
+  if (n <= kFew ? n < kept : kShare * n <= n + kept) return;
+  const bool order = 2 * (dropped.late + dropped.outlier) > n;
+  throw std::runtime_error(
+      name + ": " + DropText(dropped, what) + ", of " + std::to_string(n + kept) +
+      ": more than 5 % would be missing" +
+      (order ? "; sort the recording by time, or import each part of it separately" : ""));
 }
 
 void AppendPose(StampedPose pose, bool finite, Trajectory* truth, DropCounts* dropped) {

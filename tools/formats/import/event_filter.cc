@@ -10,19 +10,14 @@ bool EventFilter::AllGood(const EventArray& events) const {
   std::uint16_t x = 0, y = 0;
   for (std::size_t k = 0; k < n; ++k) x = std::max(x, events.x[k]);
   for (std::size_t k = 0; k < n; ++k) y = std::max(y, events.y[k]);
-  bool sorted = n == 0 || events.t[0] >= last_;
-  for (std::size_t k = 1; k < n; ++k) sorted &= events.t[k - 1] <= events.t[k];
-  return sorted && x < width_ && y < height_;
+  return x < width_ && y < height_;
 }
 
 void EventFilter::Apply(EventArray* events) {
-  if (AllGood(*events)) {
-    if (events->size() > 0) last_ = events->t.back();
-    return;
-  }
+  if (AllGood(*events)) return;
   std::size_t kept = 0;
   for (std::size_t k = 0; k < events->size(); ++k) {
-    if (!Keep(events->t[k], events->x[k], events->y[k])) continue;
+    if (!Keep(events->x[k], events->y[k])) continue;
     events->t[kept] = events->t[k];
     events->x[kept] = events->x[k];
     events->y[kept] = events->y[k];

@@ -11,7 +11,8 @@ namespace evit::formats {
 class EventSource {
  public:
   virtual ~EventSource() = default;
-  /// Replaces `events` by the next ones (at least one), sorted by time and on the sensor. False at the end.
+  /// Replaces `events` by the next ones (at least one), as they come, all on the sensor. False at the end.
+  /// Order of time is ImportLog's (OrderedEvents).
   virtual bool Read(EventArray* events) = 0;
   virtual double share() const = 0;      // of the recording that was read, 0..1
   virtual std::string name() const = 0;  // file or topic, for messages

@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "common/files/decimal_time.h"
+#include "common/imu/imu_plausibility.h"
+#include "tools/formats/import/ordered_events.h"
 #include "tools/formats/import/stream_writer.h"
 
 namespace evit::formats {
@@ -53,6 +55,32 @@ void CheckImu(const ImportStreams& streams, Utime first_event) {
   }
 }
 
+// Samples and poses in order of time; too many that cannot be are an error.
+void PutInOrder(ImportStreams* streams) {
+  TimeOrderOptions strict;
+  strict.strict = true;
+  const auto put = [&](auto* list, const std::string& name, DropCounts* dropped, const char* what) {
+    TimeOrderCounts counts;
+    *list = InTimeOrder(*list, strict, &counts);
+    dropped->Add(counts);
+    RequireMostKept(name, *dropped, static_cast<std::int64_t>(list->size()), what);
+  };
+  put(&streams->imu, streams->imu_name, &streams->dropped_imu, "IMU samples");
+  put(&streams->truth, "ground truth", &streams->dropped_truth, "truth poses");
+}
+
+// Scales to m/s^2 and rad/s, then refuses what still cannot be.
+void CheckUnits(const ImportTarget& target, ImportStreams* streams) {
+  for (ImuSample& s : streams->imu) {
+    s.accel *= target.accel_scale;
+    s.gyro *= target.gyro_scale;
+  }
+  const std::string complaint = target.any_imu ? "" : ImuComplaint(streams->imu);
+  if (complaint.empty()) return;
+  throw std::runtime_error(streams->imu_name + ": " + complaint +
+                           "; --accel-unit and --gyro-unit convert, --any-imu takes it as it is");
+}
+
 // Truth of an earlier import must not stay beside a log that has none.
 void PutInPlace(PartFile* part, const std::string& out, const Trajectory& truth) {
   const std::string truth_out = out + ".truth.tum";
@@ -70,8 +98,12 @@ void PutInPlace(PartFile* part, const std::string& out, const Trajectory& truth)
 
 }  // namespace
 
-ImportSummary ImportLog(const ImportTarget& target, EventSource* events, ImportStreams streams,
+ImportSummary ImportLog(const ImportTarget& target, EventSource* source, ImportStreams streams,
                         const std::function<void(double)>& progress) {
+  PutInOrder(&streams);
+  CheckUnits(target, &streams);
+  OrderedEvents ordered(source);
+  EventSource* const events = &ordered;
   EventArray piece;
   bool more = events->Read(&piece);
   if (!more) {
@@ -95,10 +127,12 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* events, ImportS
   PartFile part{target.out + ".part"};
   ImportSummary summary;
   Utime last = first;
+  std::int64_t n_read = 0;
   {
     const std::string name = events->name();
     StreamWriter writer(part.path, begin, streams.imu, streams.truth);
     for (; more; more = more && events->Read(&piece)) {
+      n_read += static_cast<std::int64_t>(piece.size());
       const Utime before = last;
       for (std::size_t k = 0; k < piece.size() && last <= end; ++k) {
         CheckHole(name, last, piece.t[k]);
@@ -119,6 +153,7 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* events, ImportS
       progress(target.seconds ? static_cast<double>(last - begin) / static_cast<double>(end - begin)
                               : events->share());
     }
+    RequireMostKept(events->name(), events->dropped(), n_read, "events");
     if (summary.n_events == 0) throw std::runtime_error("the part asked for by --seconds holds no events");
     if (has_imu && streams.imu.front().t > last) {
       throw std::runtime_error(

@@ -3,12 +3,15 @@
 #include <string>
 
 #include "common/files/table_reader.h"
+#include "tools/formats/import/event_columns.h"
 #include "tools/formats/import/event_filter.h"
 #include "tools/formats/import/event_source.h"
 
 namespace evit::formats {
 
-/// RPG's events.txt: `t x y p` (s, pixels, 1 brighter or 0 darker).
+/// RPG's events.txt: `t x y p` (s, pixels, 1 brighter or 0 darker), and what others write so: the columns in
+/// the order that their names or their values tell (x y p t, x y t p), stamps in us or ns, polarity -1/1 or
+/// True/False, a first line "width height".
 class RpgEvents : public EventSource {
  public:
   RpgEvents(const std::string& path, int width, int height);
@@ -19,9 +22,12 @@ class RpgEvents : public EventSource {
   DropCounts dropped() const override { return filter_.dropped(); }
 
  private:
+  std::uint8_t ReadPolarity();
+
   std::string path_;
   TableReader lines_;
   EventFilter filter_;
+  EventColumns columns_;
 };
 
 }  // namespace evit::formats

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iomanip>
 #include <random>
+#include <sstream>
 
 #include "common/config/rig_file.h"
 #include "common/files/decimal_time.h"
@@ -49,6 +52,7 @@ class RpgImportTest : public ::testing::Test {
            "0.150947243557 -0.000296130534385 -0.000759431726241 0.0\n";
     job_.folder = In("");
     job_.out = (folder_ / "out.lcmlog").string();
+    job_.any_imu = true;  // made-up numbers
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
@@ -83,18 +87,128 @@ TEST_F(RpgImportTest, InvalidEntriesAreCountedAndDropped) {
   Append("imu.txt", "0.499003 0 0 0 0 0 0\n0.5 0 0 nan 0 0 0\n0.51 0 0 9 0 0 inf\n");
   Append("groundtruth.txt", "0.5 0 0 0 0 0 0 0\n0.5 nan 0 0 0 0 0 1\n0.1 0 0 0 0 0 0 1\n");
   const ImportSummary summary = Import();
-  EXPECT_EQ(summary.dropped_events.disorder, 1);
+  EXPECT_EQ(summary.dropped_events.late, 1);
   EXPECT_EQ(summary.dropped_events.invalid, 1);
   EXPECT_EQ(summary.dropped_events.outside, 3);
-  EXPECT_EQ(summary.dropped_imu.disorder, 1);
+  EXPECT_EQ(summary.dropped_imu.late, 1);
   EXPECT_EQ(summary.dropped_imu.invalid, 2);
-  EXPECT_EQ(summary.dropped_truth.disorder, 1);
+  EXPECT_EQ(summary.dropped_truth.late, 1);
   EXPECT_EQ(summary.dropped_truth.invalid, 2);
   const ImportedLog out = ReadImported(job_.out);
   made_.events.push_back(600'000, 239, 179, 1);
   ExpectSame(out.events, made_.events);
   ExpectSame(out.imu, made_.imu);
   ExpectSame(out.truth, made_.truth);
+}
+
+// What other programs write; each must give the same events.
+TEST_F(RpgImportTest, EventsInEveryFormThatHasOneMeaning) {
+  constexpr int kEvents = 4000;
+  const auto write = [&](const std::string& head, const std::string& end,
+                         const std::function<std::string(Utime, int, int, int)>& row) {
+    std::ofstream out(In("events.txt"), std::ios::binary);
+    out << head;
+    for (int k = 0; k < kEvents; ++k)
+      out << row(made_.events.t[k], made_.events.x[k], made_.events.y[k], made_.events.p[k]) << end;
+  };
+  const auto text = [](const char* format, auto... values) {
+    char row[200];
+    std::snprintf(row, sizeof row, format, values...);
+    return std::string(row);
+  };
+  const auto seconds = [](Utime t) { return 1e-6 * static_cast<double>(t); };
+  const std::vector<std::function<void()>> forms = {
+      [&] {
+        write("240 180\n", "\n",
+              [&](Utime t, int x, int y, int p) { return text("%.6f %d %d %d", seconds(t), x, y, p); });
+      },
+      [&] {
+        write("", "\n", [&](Utime t, int x, int y, int p) {
+          return text("%.18e %.18e %.18e %.18e", seconds(t), 1.0 * x, 1.0 * y, 1.0 * p);
+        });
+      },
+      [&] {
+        write("\xEF\xBB\xBFt,x,y,p\r\n", "\r\n",
+              [&](Utime t, int x, int y, int p) { return text("%.6f,%d.0,%d.0,%d", seconds(t), x, y, p); });
+      },
+      [&] {
+        write("# t x y p\r", "\r", [&](Utime t, int x, int y, int p) {
+          return text("%.6f;%d;%d;%s", seconds(t), x, y, p ? "True" : "False");
+        });
+      },
+      [&] {
+        write("", "\n", [&](Utime t, int x, int y, int p) {
+          return text("%.6f %d %d %d", seconds(t), x, y, 2 * p - 1);
+        });
+      },
+      [&] {
+        write("", "\n", [&](Utime t, int x, int y, int p) {
+          return text("%lld %d %d %d", static_cast<long long>(t), x, y, p);
+        });
+      },
+      [&] {
+        write("", "\n", [&](Utime t, int x, int y, int p) {
+          return text("%d,%d,%d,%lld", x, y, p, static_cast<long long>(t));
+        });
+      },
+      [&] {
+        write(",x,y,polarity,timestamp\n", "\n", [&](Utime t, int x, int y, int p) {
+          return text("7,%d,%d,%d,%lld", x, y, p, static_cast<long long>(t));
+        });
+      },
+      [&] {
+        write("", "\n",
+              [&](Utime t, int x, int y, int p) { return text("%d %d %.6f %d", x, y, seconds(t), p); });
+      },
+      [&] {
+        write("x y t[ns] p\n", "\n", [&](Utime t, int x, int y, int p) {
+          return text("%d %d %lld %d", x, y, static_cast<long long>(1000 * t), p);
+        });
+      },
+  };
+  made_.events.t.resize(kEvents), made_.events.x.resize(kEvents), made_.events.y.resize(kEvents),
+      made_.events.p.resize(kEvents);
+  for (std::size_t k = 0; k < forms.size(); ++k) {
+    SCOPED_TRACE(k);
+    forms[k]();
+    Import();
+    ExpectSame(ReadImported(job_.out).events, made_.events);
+  }
+}
+
+TEST_F(RpgImportTest, OneStampInTheFutureCostsItselfOnly) {
+  for (const char* name : {"events.txt", "imu.txt", "groundtruth.txt"}) {
+    SetUp();
+    std::stringstream all;
+    all << std::ifstream(In(name)).rdbuf();
+    std::string text = all.str();
+    const std::size_t at = text.find('\n', text.size() / 3) + 1;  // a row begins
+    text.replace(at, 1, "500");
+    std::ofstream(In(name)) << text;
+    const ImportSummary summary = Import();
+    EXPECT_EQ(summary.dropped_events.outlier + summary.dropped_imu.outlier + summary.dropped_truth.outlier, 1)
+        << name;
+    EXPECT_EQ(summary.dropped_events.total() + summary.dropped_imu.total() + summary.dropped_truth.total(), 1)
+        << name;
+  }
+}
+
+TEST_F(RpgImportTest, AnImuInOtherUnitsIsRefusedOrConverted) {
+  job_.any_imu = false;
+  const auto write = [&](double scale) {
+    std::ofstream imu(In("imu.txt"));
+    for (int k = 0; k < 500; ++k) imu << 0.001 * k << " 0 0 " << 9.80665 * scale << " 0.01 0.02 0.03\n";
+  };
+  write(1 / 9.80665);
+  EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(AllOf(
+                                     HasSubstr("imu.txt"), HasSubstr("in g"), HasSubstr("--accel-unit"))));
+  EXPECT_FALSE(std::filesystem::exists(job_.out));
+  job_.accel_scale = 9.80665;
+  Import();
+  EXPECT_NEAR(ReadImported(job_.out).imu[7].accel.z(), 9.80665, 1e-4);
+  job_.accel_scale = 1;
+  job_.any_imu = true;
+  Import();
 }
 
 TEST_F(RpgImportTest, RigIsWrittenFromTheCalibration) {
@@ -131,11 +245,23 @@ TEST_F(RpgImportTest, ErrorsNameFileLineAndRemedy) {
               ThrowsMessage<std::runtime_error>(AllOf(HasSubstr(line), HasSubstr("t x y p"))));
   EXPECT_FALSE(std::filesystem::exists(job_.out));
   EXPECT_FALSE(std::filesystem::exists(job_.out + ".part"));
-  std::ofstream(In("events.txt")) << "0.1 1 1 -1\n";
-  EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(HasSubstr("polarity is -1")));
+  std::ofstream(In("events.txt")) << "0.1 1 1 2\n";
+  EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(HasSubstr("polarity is 2")));
+  std::ofstream(In("events.txt")) << "0.1 1 1 -1\n0.1 1 1 0\n";
+  EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(
+                                     AllOf(HasSubstr("events.txt:2"), HasSubstr("0 and -1 both occur"))));
+  std::ofstream(In("events.txt")) << "0.1 1.25 1 1\n";
+  EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(HasSubstr("not a whole number")));
+  std::ofstream(In("events.txt")) << "346 260\n0.1 1 1 1\n0.1 1 1 1\n";
+  EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(HasSubstr("--size 346x260")));
   std::ofstream(In("events.txt")) << "0.1 999 1 1\n";
   EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(HasSubstr("is the image size right?")));
-  std::ofstream(In("events.txt")) << "0.1 1 1 1\n1468941032.5 1 1 1\n";
+  {
+    std::ofstream events(In("events.txt"));
+    for (const char* second : {"0", "1468941032"}) {
+      for (int k = 100; k < 300; ++k) events << second << '.' << k << " 1 1 1\n";
+    }
+  }
   EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(HasSubstr("the time jumps")));
   job_.rig_out = (folder_ / "rig.textproto").string();
   job_.width = 100;

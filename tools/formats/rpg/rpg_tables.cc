@@ -5,30 +5,38 @@
 #include <stdexcept>
 
 #include "common/files/table_reader.h"
+#include "common/files/table_sample.h"
+#include "tools/formats/import/imu_columns.h"
 
 namespace evit::formats {
+namespace {
+
+constexpr double kSlowestTruth = 5;  // s between poses
+
+}  // namespace
 
 std::vector<ImuSample> ReadRpgImu(const std::string& path, DropCounts* dropped) {
-  TableReader lines(path, "t ax ay az gx gy gz");
+  constexpr char kLayout[] = "t ax ay az gx gy gz";
+  const ImuColumns columns = FindImuColumns(path, kLayout, {0, 4, 5, 6, 1, 2, 3});
+  TableReader lines(path, kLayout);
   std::vector<ImuSample> samples;
   while (lines.Next()) {
     ImuSample s;
-    const bool finite = lines.Time(&s.t);
-    for (Eigen::Vector3d* v : {&s.accel, &s.gyro}) {
-      for (double& x : *v) x = lines.Number();
-    }
+    const bool finite = ReadImuRow(columns, &lines, &s);
     lines.End();
-    AppendValid(s, finite && s.accel.allFinite() && s.gyro.allFinite(), &samples, dropped);
+    AppendValid(s, finite, &samples, dropped);
   }
   return samples;
 }
 
 Trajectory ReadRpgTruth(const std::string& path, DropCounts* dropped) {
-  TableReader lines(path, "t px py pz qx qy qz qw");
+  constexpr char kLayout[] = "t px py pz qx qy qz qw";
+  const TimeUnit unit = UnitOfStamps(SampleTable(path, kLayout), 0, kSlowestTruth);
+  TableReader lines(path, kLayout);
   Trajectory truth;
   while (lines.Next()) {
     StampedPose s;
-    const bool finite = lines.Time(&s.t);
+    const bool finite = lines.Time(&s.t, unit);
     for (double& x : s.pose.p) x = lines.Number();
     for (double& x : s.pose.q.coeffs()) x = lines.Number();
     lines.End();

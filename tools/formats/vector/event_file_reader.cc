@@ -1,53 +1,120 @@
 #include "tools/formats/vector/event_file_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <stdexcept>
 
-#include "tools/formats/vector/h5_handle.h"
+#include "tools/formats/import/polarity_code.h"
+#include "tools/formats/vector/h5_column.h"
+#include "tools/formats/vector/lzf_filter.h"
 #include "tools/formats/vector/zstd_filter.h"
 
 namespace evit::formats {
+namespace {
+
+constexpr char kLayout[] = "VECtor's layout: events/{x,y,p,t}, t_offset, ms_to_idx";
+constexpr char kFractionalPixel[] =
+    "a pixel with a fraction: undistorted coordinates? The tracker needs the sensor's own pixels";
+constexpr std::size_t kProbe = 10'000;  // stamps that tell their unit
+constexpr double kNever = 4e15;         // us: beyond any date
+
+// Microseconds of one, for floats: whole numbers are us (ns where they are a date in ns), others s.
+double MicrosPerUnit(const std::vector<double>& stamps) {
+  double largest = 0;
+  bool whole = true;
+  for (const double t : stamps) {
+    if (!std::isfinite(t)) continue;
+    largest = std::max(largest, std::abs(t));
+    whole = whole && t == std::floor(t);
+  }
+  if (largest >= 1e17) return 1e-3;
+  if (largest >= 1e14) return 1;
+  return whole && largest > 0 ? 1 : 1e6;
+}
+
+}  // namespace
 
 struct EventFileReader::Impl {
   std::string path;
-  H5Handle file, x, y, p, t;
-  std::size_t size = 0, at = 0;
+  H5Handle file;
+  std::unique_ptr<H5Column> x, y, p, t;
+  std::size_t at = 0;
+  double micros_per_unit = 1;
   std::int64_t t_offset = 0;
-  std::int64_t last = 0;
-  std::vector<std::int64_t> stamps;
+  Utime last = 0, wrapped = 0;  // of t as it stands; what its wraps add up to
+  std::int64_t n_impossible = 0;
+  PolarityCode polarity;
 
   [[noreturn]] void Fail(const std::string& what) const { throw std::runtime_error(path + ": " + what); }
 
-  H5Handle Open(const char* name) const {
-    H5Handle dataset(H5Dopen2(file.get(), name, H5P_DEFAULT), H5Dclose);
-    if (!dataset.ok()) {
-      Fail(std::string("dataset ") + name +
-           " is missing; VECtor's layout is events/{x,y,p,t}, t_offset, ms_to_idx");
+  std::unique_ptr<H5Column> Open(const char* name) const {
+    return std::make_unique<H5Column>(file.get(), path, name, kLayout);
+  }
+
+  void ReadOffset() {
+    if (H5Lexists(file.get(), "t_offset", H5P_DEFAULT) <= 0) return;
+    const H5Column offset(file.get(), path, "t_offset", kLayout);
+    std::vector<double> value;
+    if (offset.size() != 1)
+      offset.Fail("holds " + std::to_string(offset.size()) + " numbers; expected one (us)");
+    if (offset.number_class() == H5Column::Class::kInteger && micros_per_unit == 1) {
+      std::vector<std::int64_t> whole;
+      offset.Read(0, 1, "", &whole);
+      t_offset = whole[0];
+      if (std::abs(static_cast<double>(t_offset)) >= 1e17) t_offset /= 1000;  // ns
+      return;
     }
-    return dataset;
+    offset.Read(0, 1, &value);
+    double scale = micros_per_unit;
+    if (std::abs(value[0]) >= 1e14) scale = std::abs(value[0]) >= 1e17 ? 1e-3 : 1;  // dates in us or ns
+    if (std::abs(value[0]) >= 1e9 && std::abs(value[0]) < 1e10) scale = 1e6;        // dates in s
+    if (!(std::abs(value[0] * scale) < kNever)) offset.Fail("is no time");
+    t_offset = std::llround(value[0] * scale);
   }
 
-  static hsize_t Length(const H5Handle& dataset) {
-    const H5Handle space(H5Dget_space(dataset.get()), H5Sclose);
-    return static_cast<hsize_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.get())));
+  void FindUnit() {
+    std::vector<double> probe;
+    t->Read(0, std::min(kProbe, t->size()), &probe);
+    if (t->number_class() == H5Column::Class::kInteger) {
+      const bool nanoseconds = !probe.empty() && std::abs(probe.front()) >= 1e17;
+      micros_per_unit = nanoseconds ? 1e-3 : 1;
+      return;
+    }
+    micros_per_unit = MicrosPerUnit(probe);
+    if (t->bytes() < 8 && probe.size() > 1000 && probe.front() == probe.back())
+      t->Fail(
+          "holds 32-bit floats that say the same time for all events: too coarse for a date; write float64");
   }
 
-  void ReadPart(const H5Handle& dataset, const char* name, hid_t type, hsize_t n, void* out) const {
-    const hsize_t begin = at;
-    const H5Handle source(H5Dget_space(dataset.get()), H5Sclose),
-        target(H5Screate_simple(1, &n, nullptr), H5Sclose);
-    H5Sselect_hyperslab(source.get(), H5S_SELECT_SET, &begin, nullptr, &n, nullptr);
-    if (H5Dread(dataset.get(), type, target.get(), source.get(), H5P_DEFAULT, out) < 0) {
-      Fail(std::string("dataset ") + name + " cannot be read at event " + std::to_string(at) +
-           ": the file is damaged, or compressed with a filter other than Zstandard (32015); download it "
-           "again");
+  void ReadStamps(std::size_t n, std::vector<Utime>* out) {
+    if (t->number_class() == H5Column::Class::kFloat || micros_per_unit != 1) {
+      std::vector<double> values;
+      t->Read(at, n, &values);
+      out->resize(n);
+      for (std::size_t k = 0; k < n; ++k) {
+        const double micros = values[k] * micros_per_unit;
+        if (!(std::abs(micros) < kNever)) t->Fail("entry " + std::to_string(at + k) + " is no time");
+        (*out)[k] = std::llround(micros) + t_offset;
+      }
+      return;
+    }
+    t->Read(at, n, "", out);
+    constexpr Utime kWrap = Utime{1} << 32;
+    for (Utime& stamp : *out) {
+      if (stamp < 0 || static_cast<double>(stamp) > kNever)
+        t->Fail("holds a number that is no time: " + std::to_string(stamp));
+      if (t->bytes() == 4 && stamp < last - kWrap / 2) wrapped += kWrap;
+      last = stamp;
+      stamp += wrapped + t_offset;
     }
   }
 };
 
 EventFileReader::EventFileReader(const std::string& path) : impl_(std::make_unique<Impl>()) {
   RegisterZstdFilter();
+  RegisterLzfFilter();
   Impl& r = *impl_;
   r.path = path;
   if (!std::filesystem::exists(path)) r.Fail("there is no such file");
@@ -57,45 +124,46 @@ EventFileReader::EventFileReader(const std::string& path) : impl_(std::make_uniq
   r.y = r.Open("events/y");
   r.p = r.Open("events/p");
   r.t = r.Open("events/t");
-  const H5Handle offset = r.Open("t_offset");
-  if (Impl::Length(offset) != 1 ||
-      H5Dread(offset.get(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &r.t_offset) < 0) {
-    r.Fail("dataset t_offset: expected one integer (us)");
-  }
-  r.size = Impl::Length(r.t);
-  for (const auto& [dataset, name] : {std::pair(&r.x, "x"), std::pair(&r.y, "y"), std::pair(&r.p, "p")}) {
-    if (Impl::Length(*dataset) != r.size) {
-      r.Fail(std::string("events/") + name + " has " + std::to_string(Impl::Length(*dataset)) +
-             " entries, events/t " + std::to_string(r.size) + ": the file is damaged; download it again");
+  for (const auto& [column, name] : {std::pair(&r.x, "x"), std::pair(&r.y, "y"), std::pair(&r.p, "p")}) {
+    if ((*column)->size() != r.t->size()) {
+      r.Fail(std::string("events/") + name + " has " + std::to_string((*column)->size()) +
+             " entries, events/t " + std::to_string(r.t->size()) +
+             ": the file is damaged; download it again");
     }
   }
+  r.FindUnit();
+  r.ReadOffset();
 }
 
 EventFileReader::~EventFileReader() = default;
 
-std::size_t EventFileReader::size() const { return impl_->size; }
+std::size_t EventFileReader::size() const { return impl_->t->size(); }
+
+std::int64_t EventFileReader::n_impossible() const { return impl_->n_impossible; }
 
 std::size_t EventFileReader::Read(std::size_t max_events, EventArray* events) {
   Impl& r = *impl_;
   events->clear();
-  const std::size_t n = std::min(max_events, r.size - r.at);
+  const std::size_t n = std::min(max_events, size() - r.at);
   if (n == 0) return 0;
-  events->t.resize(n);
-  events->x.resize(n);
-  events->y.resize(n);
-  events->p.resize(n);
-  r.ReadPart(r.x, "events/x", H5T_NATIVE_UINT16, n, events->x.data());
-  r.ReadPart(r.y, "events/y", H5T_NATIVE_UINT16, n, events->y.data());
-  r.ReadPart(r.p, "events/p", H5T_NATIVE_UINT8, n, events->p.data());
-  r.ReadPart(r.t, "events/t", H5T_NATIVE_INT64, n, events->t.data());
-  for (std::size_t k = 0; k < n; ++k) {
-    events->p[k] = events->p[k] != 0 ? 1 : 0;
-    if (events->t[k] < r.last) {
-      r.Fail("events/t: event " + std::to_string(r.at + k) + " is earlier (" + std::to_string(events->t[k]) +
-             " us) than the one before (" + std::to_string(r.last) + " us): events must be sorted by time");
+  std::vector<std::int64_t> x, y, p;
+  std::vector<Utime> t;
+  r.x->Read(r.at, n, kFractionalPixel, &x);
+  r.y->Read(r.at, n, kFractionalPixel, &y);
+  r.p->Read(r.at, n, "a polarity with a fraction", &p);
+  r.ReadStamps(n, &t);
+  constexpr std::int64_t kLargest = std::numeric_limits<std::uint16_t>::max();
+  try {
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::uint8_t polarity = r.polarity.Read(p[k]);
+      if (x[k] < 0 || y[k] < 0 || x[k] > kLargest || y[k] > kLargest) {
+        ++r.n_impossible;
+        continue;
+      }
+      events->push_back(t[k], static_cast<std::uint16_t>(x[k]), static_cast<std::uint16_t>(y[k]), polarity);
     }
-    r.last = events->t[k];
-    events->t[k] += r.t_offset;
+  } catch (const std::runtime_error& error) {
+    r.p->Fail(std::string("cannot be read: ") + error.what());
   }
   r.at += n;
   return n;

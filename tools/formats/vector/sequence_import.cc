@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tools/formats/import/event_filter.h"
 #include "tools/formats/vector/event_file_reader.h"
 #include "tools/formats/vector/imu_file.h"
 
@@ -32,34 +33,45 @@ constexpr char kEventSuffix[] = "1.synced.left_event.hdf5";
 }
 
 // Ground truth of the marker body becomes the IMU body's, in the map frame.
-Trajectory ReadTruth(const SequenceImport& job, const std::string& path) {
-  Trajectory truth = ReadTum(path);
+Trajectory ReadTruth(const SequenceImport& job, const std::string& path, DropCounts* dropped) {
+  TumSkipped skipped;
+  Trajectory truth = ReadTum(path, &skipped);
+  dropped->late += skipped.rows;
   for (StampedPose& s : truth) s.pose = job.T_map_world * s.pose * job.rig.T_marker_body;
   return truth;
 }
 
-// The events of one file; all of them must lie on the sensor.
 class VectorEvents : public EventSource {
  public:
-  VectorEvents(const std::string& path, const Camera& camera) : path_(path), camera_(camera), file_(path) {}
+  VectorEvents(const std::string& path, const Camera& camera)
+      : path_(path), file_(path), filter_(camera.width, camera.height) {}
 
   bool Read(EventArray* events) override {
-    n_read_ += file_.Read(1'000'000, events);
-    for (std::size_t k = 0; k < events->size(); ++k) {
-      if (events->x[k] < camera_.width && events->y[k] < camera_.height) continue;
-      throw std::runtime_error(path_ + ": an event lies at (" + std::to_string(events->x[k]) + ", " +
-                               std::to_string(events->y[k]) + "), outside the rig file's camera of " +
-                               std::to_string(camera_.width) + "x" + std::to_string(camera_.height));
+    events->clear();
+    while (events->size() == 0) {
+      const std::size_t n = file_.Read(1'000'000, &piece_);
+      if (n == 0) return false;
+      n_read_ += n;
+      for (std::size_t k = 0; k < piece_.size(); ++k) {
+        if (filter_.Keep(piece_.x[k], piece_.y[k]))
+          events->push_back(piece_.t[k], piece_.x[k], piece_.y[k], piece_.p[k]);
+      }
     }
-    return events->size() > 0;
+    return true;
   }
   double share() const override { return static_cast<double>(n_read_) / static_cast<double>(file_.size()); }
-  std::string name() const override { return path_ + ": events/t"; }
+  std::string name() const override { return path_ + ": events"; }
+  DropCounts dropped() const override {
+    DropCounts dropped = filter_.dropped();
+    dropped.outside += file_.n_impossible();
+    return dropped;
+  }
 
  private:
   std::string path_;
-  Camera camera_;
   EventFileReader file_;
+  EventFilter filter_;
+  EventArray piece_;
   std::size_t n_read_ = 0;
 };
 
@@ -72,9 +84,9 @@ ImportSummary ImportSequence(const SequenceImport& job, const std::function<void
   VectorEvents events(base + kEventSuffix, job.rig.camera);
   ImportStreams streams;
   streams.imu_name = base + "1.synced.imu.txt";
-  streams.imu = ReadImuFile(streams.imu_name);
+  streams.imu = ReadImuFile(streams.imu_name, &streams.dropped_imu);
   const std::string truth_file = base + "1.synced.gt.txt";
-  if (fs::exists(truth_file)) streams.truth = ReadTruth(job, truth_file);
+  if (fs::exists(truth_file)) streams.truth = ReadTruth(job, truth_file, &streams.dropped_truth);
   return ImportLog(job, &events, std::move(streams), progress);
 }
 

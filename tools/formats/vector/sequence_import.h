@@ -15,8 +15,7 @@ struct SequenceImport : ImportTarget {
   Rig rig;             // T_marker_body turns the marker body's ground truth into the IMU's
 };
 
-/// As ImportLog. Data that is out of order, not finite or outside the sensor is an error: VECtor's files are
-/// processed, they hold none. An unknown name lists the sequences found.
+/// As ImportLog. An unknown name lists the sequences found.
 ImportSummary ImportSequence(const SequenceImport& job, const std::function<void(double)>& progress);
 
 }  // namespace evit::formats

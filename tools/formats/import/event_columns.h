@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/files/table_sample.h"
+
+namespace evit::formats {
+
+/// Which column of a text file of events is which, in which unit the stamps are, and how large the sensor is.
+struct EventColumns {
+  enum Field { kTime, kX, kY, kPolarity, kIgnored };
+  std::array<Field, 5> field = {kTime, kX, kY, kPolarity, kIgnored};
+  std::size_t n = 4;
+  TimeUnit unit = TimeUnit::kSeconds;
+  std::optional<std::pair<int, int>> size;  // of a first line "width height", which is to be passed over
+};
+
+/// Told from the names of the columns, else from the values: polarities are few, pixels small and whole,
+/// times do not go back. "t x y p" where nothing speaks against it. Throws std::runtime_error naming the file
+/// where the names or the number of columns are not those of events.
+EventColumns FindEventColumns(const std::string& path);
+
+}  // namespace evit::formats
