@@ -8,6 +8,7 @@
 
 #include "common/config/config_error.h"
 #include "common/config/field_rules.h"
+#include "common/config/kalibr_file.h"
 #include "common/config/rig.pb.h"
 #include "common/config/text_file.h"
 #include "common/files/whole_file.h"
@@ -51,6 +52,11 @@ Camera ToCamera(const RigText& rig) {
   Camera camera;
   rig.Require(CameraModelFromName(c.model(), &camera.model), "camera.model",
               "\"" + c.model() + "\" is not known; use \"plumb_bob\" or \"equidistant\"");
+  const double offset = c.time_offset_us();
+  rig.Require(offset == 0 || std::abs(offset) >= 1, "camera.time_offset_us",
+              NumberText(offset) + " us looks like seconds (Kalibr's timeshift_cam_imu): write " +
+                  NumberText(std::round(1e6 * offset)));
+  rig.Require(std::abs(offset) <= 1e6, "camera.time_offset_us", "is more than a second");
   rig.Require(c.cx() <= c.width(), "camera.cx", "must lie in the image (pixels, not normalised)");
   rig.Require(c.cy() <= c.height(), "camera.cy", "must lie in the image (pixels, not normalised)");
   rig.Require(c.distortion_size() == 4 || c.distortion_size() == 5, "camera.distortion",
@@ -128,6 +134,7 @@ std::string ImuText(double rate_hz, const ImuNoise& n) {
 }  // namespace
 
 Rig LoadRig(const std::string& path) {
+  if (IsKalibr(path)) return LoadKalibrRig(path);
   const RigText text(path);
   const config::Rig& message = text.message;
   Rig rig;
@@ -141,7 +148,9 @@ Rig LoadRig(const std::string& path) {
   return rig;
 }
 
-std::string LoadRigName(const std::string& path) { return RigText(path).message.name(); }
+std::string LoadRigName(const std::string& path) {
+  return IsKalibr(path) ? KalibrRigName(path) : RigText(path).message.name();
+}
 
 void WriteRig(const std::string& path, const Rig& rig, const std::string& name, const std::string& comment) {
   std::ostringstream text;

@@ -6,9 +6,9 @@
 
 namespace evit {
 
-/// Reads a rig file (schema: common/config/rig.proto). Throws ConfigError naming file, line and remedy: not
-/// readable, unknown or missing key, wrong number of values, a rotation that is not one, a value out of
-/// range.
+/// Reads a rig file (schema: common/config/rig.proto), or Kalibr's camchain-imucam.yaml (kalibr_file.h).
+/// Throws ConfigError naming file, line and remedy: not readable, unknown or missing key, wrong number of
+/// values, a rotation that is not one, a value out of range.
 Rig LoadRig(const std::string& path);
 
 /// A rig file's name for people. Throws ConfigError as LoadRig does.

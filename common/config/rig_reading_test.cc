@@ -21,6 +21,12 @@ class RigReading : public test::ConfigFilesTest {
   }
 };
 
+TEST_F(RigReading, SecondsPastedAsMicrosecondsAreNoticed) {
+  ExpectEditRefused("time_offset_us: 0", "time_offset_us: 0.0054", "rig.textproto",
+                    {"time_offset_us", "looks like seconds", "5400"});
+  ExpectEditRefused("time_offset_us: 0", "time_offset_us: 5400000", "rig.textproto", {"more than a second"});
+}
+
 TEST_F(RigReading, ShippedFilesLoad) {
   EXPECT_NO_THROW(LoadRig(kRig));
   EXPECT_NO_THROW(LoadRig(test::SourcePath("logs/rig.textproto")));
