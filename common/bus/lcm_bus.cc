@@ -2,6 +2,7 @@
 
 #include <lcm/lcm.h>
 
+#include <csignal>
 #include <deque>
 #include <stdexcept>
 #include <utility>
@@ -34,8 +35,17 @@ std::string EscapeRegex(const std::string& channel) {
 class LcmBus : public Bus {
  public:
   explicit LcmBus(const std::string& url) {
+    RequireSharedBus(url);
     const LcmUrl parsed = ParseLcmUrl(url);
+    url_ = parsed;
     std::string granted_url = url;
+    if (parsed.server) {
+      RequireServer(parsed);
+      std::signal(SIGPIPE,
+                  SIG_IGN);  // a server that goes away is an error of sending, not the end of the process
+      if (url.find(':', std::string("tcpq://").size()) == std::string::npos)
+        granted_url = "tcpq://" + parsed.host + ":" + std::to_string(parsed.port);
+    }
     if (parsed.multicast) {
       RequireMulticastRoute(parsed);
       granted_ = ProbeReceiveBuffer(parsed.receive_buffer > 0 ? parsed.receive_buffer : kReceiveBuffer);
@@ -55,7 +65,7 @@ class LcmBus : public Bus {
   LcmBus& operator=(const LcmBus&) = delete;
 
   void Publish(const std::string& channel, const void* data, std::size_t size) override {
-    if (size > kMaxMessage || channel.size() > LCM_MAX_CHANNEL_NAME_LENGTH ||
+    if (size > kMaxMessage || channel.size() > LCM_MAX_CHANNEL_NAME_LENGTH || !Connected() ||
         lcm_publish(lcm_, channel.c_str(), data, static_cast<unsigned>(size)) != 0) {
       ++send_errors_;
     }
@@ -70,10 +80,12 @@ class LcmBus : public Bus {
       throw std::runtime_error("cannot receive from the LCM bus (channel " + channel +
                                "): is multicast routed, and not filtered by a firewall?");
     }
+    if (url_.multicast && subscribers_.size() == 1) HearOnlyOwnGroup(url_);  // LCM has its socket by now
     lcm_subscription_set_queue_capacity(subscription, 0);  // unlimited: Enqueue() bounds and counts
   }
 
   int Poll(int timeout_ms) override {
+    RequireConnection();
     if (queue_.empty() && lcm_handle_timeout(lcm_, timeout_ms) <= 0) return 0;
     Drain();
     // What arrives meanwhile is taken from LCM but waits for the next Poll: a flooded bus must not starve
@@ -131,10 +143,19 @@ class LcmBus : public Bus {
 
   /// Takes over what LCM's reader thread has queued, so that no queue without a bound can grow.
   void Drain() {
-    for (int i = 0; i < kMaxDrain && lcm_handle_timeout(lcm_, 0) > 0; ++i) {
+    for (int i = 0; i < kMaxDrain && Connected() && lcm_handle_timeout(lcm_, 0) > 0; ++i) {
     }
   }
 
+  /// LCM closes its socket where a tcpq server is gone, and then waits on none: the process would be aborted.
+  bool Connected() const { return !url_.server || lcm_get_fileno(lcm_) >= 0; }
+  void RequireConnection() const {
+    if (Connected()) return;
+    throw std::runtime_error("tcpq: the server at " + url_.host + ":" + std::to_string(url_.port) +
+                             " is gone; start it, then this program, again");
+  }
+
+  LcmUrl url_;
   lcm_t* lcm_ = nullptr;
   int granted_ = 0;
   std::int64_t send_errors_ = 0;

@@ -140,6 +140,33 @@ TEST(LcmBus, WaitingCostsNoTimeOfTheProcessor) {
   EXPECT_LT(microseconds(after.ru_utime) - microseconds(before.ru_utime), 50'000);
 }
 
+// Linux hands all groups of a port to every socket of it; another group would mix with ours.
+TEST(LcmBus, AnotherGroupOnTheSamePortIsNotHeard) {
+  const auto bus = OpenLcmBus("udpm://239.255.76.68:7667?ttl=0");
+  const auto other = OpenLcmBus("udpm://239.255.76.69:7667?ttl=0");
+  const auto own = OpenLcmBus("udpm://239.255.76.68:7667?ttl=0");
+  std::vector<std::string> heard;
+  bus->Subscribe("A", [&](const std::string&, const std::uint8_t* data, std::size_t size) {
+    heard.emplace_back(data, data + size);
+  });
+  other->Publish("A", "foreign", 7);
+  own->Publish("A", "own", 3);
+  PollUntil(bus.get(), [&] { return !heard.empty() && heard.back() == "own"; });
+  EXPECT_EQ(heard, std::vector<std::string>{"own"});
+}
+
+// A server that answers nothing: LCM's handshake waits for it, so only our own look at it is tested.
+TEST(LcmBus, AServerThatIsNotThereIsAnErrorNotAnAbort) {
+  EXPECT_THROW(OpenLcmBus("tcpq://127.0.0.1:7709"), std::runtime_error);
+  EXPECT_THROW(OpenLcmBus("tcpq://127.0.0.1"), std::runtime_error);
+  EXPECT_THROW(OpenLcmBus("tcpq://no.such.host.invalid:7700"), std::runtime_error);
+}
+
+TEST(LcmBus, WhatReachesNoOtherProcessIsRefused) {
+  EXPECT_THROW(OpenLcmBus("memq://"), std::runtime_error);
+  EXPECT_THROW(OpenLcmBus("file:///tmp/x.lcmlog?mode=w"), std::runtime_error);
+}
+
 TEST(LcmBus, ABadUrlIsAnError) {
   EXPECT_THROW(OpenLcmBus("nonsense://"), std::runtime_error);
   EXPECT_THROW(OpenLcmBus("udpm://10.0.0.1:7667"), std::runtime_error);

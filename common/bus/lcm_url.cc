@@ -1,13 +1,17 @@
 #include "common/bus/lcm_url.h"
 
 #include <arpa/inet.h>
+#include <netdb.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <charconv>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <system_error>
 
@@ -15,7 +19,8 @@ namespace evit {
 
 namespace {
 
-constexpr char kScheme[] = "udpm://";
+constexpr char kScheme[] = "udpm://", kServerScheme[] = "tcpq://";
+constexpr int kServerPatience = 2000;  // ms
 constexpr char kBufferKey[] = "recv_buf_size=";
 
 int ParseInt(const std::string& url, const std::string& part, const std::string& text, int low, int high) {
@@ -47,6 +52,16 @@ class Socket {
 
 LcmUrl ParseLcmUrl(const std::string& url) {
   LcmUrl result;
+  if (url.rfind(kServerScheme, 0) == 0) {
+    result.server = true;
+    result.port = 7700;
+    const std::string address =
+        url.substr(std::strlen(kServerScheme), url.find('?') - std::strlen(kServerScheme));
+    const std::size_t colon = address.find(':');
+    if (!address.substr(0, colon).empty()) result.host = address.substr(0, colon);
+    if (colon != std::string::npos) result.port = ParseInt(url, "port", address.substr(colon + 1), 1, 65535);
+    return result;
+  }
   if (url.rfind(kScheme, 0) != 0) return result;
   result.multicast = true;
   const std::string rest = url.substr(std::strlen(kScheme));
@@ -90,6 +105,63 @@ int ProbeReceiveBuffer(int bytes) {
     throw std::system_error(errno, std::generic_category(), "cannot read the receive buffer's size");
   }
   return granted / 2;
+}
+
+void RequireSharedBus(const std::string& url) {
+  for (const char* kind : {"memq://", "file://"}) {
+    if (url.rfind(kind, 0) != 0) continue;
+    throw std::runtime_error(
+        "LCM URL \"" + url + "\": " + kind +
+        " reaches no other process; give udpm://239.255.76.67:7667?ttl=0, or tcpq://HOST:PORT "
+        "with a running lcm-tcpq server");
+  }
+}
+
+void RequireServer(const LcmUrl& url) {
+  const std::string where = url.host + ":" + std::to_string(url.port);
+  addrinfo hints{}, *found = nullptr;
+  hints.ai_socktype = SOCK_STREAM;
+  if (::getaddrinfo(url.host.c_str(), std::to_string(url.port).c_str(), &hints, &found) != 0)
+    throw std::runtime_error("tcpq: the host of " + where + " is not known; check --lcm-url");
+  std::string why = "no answer";
+  bool there = false;
+  for (const addrinfo* a = found; a != nullptr && !there; a = a->ai_next) {
+    const int fd = ::socket(a->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    if (fd < 0) continue;
+    int error = ::connect(fd, a->ai_addr, a->ai_addrlen) == 0 ? 0 : errno;
+    pollfd wait{fd, POLLOUT, 0};
+    socklen_t size = sizeof error;
+    if (error == EINPROGRESS) {
+      error = ::poll(&wait, 1, kServerPatience) > 0 ? 0 : ETIMEDOUT;
+      if (error == 0) ::getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size);
+    }
+    there = error == 0;
+    if (!there) why = std::strerror(error);
+    ::close(fd);
+  }
+  ::freeaddrinfo(found);
+  if (!there) {
+    throw std::runtime_error(
+        "tcpq: no server at " + where + " (" + why +
+        "); start one there (java -cp lcm.jar lcm.lcm.TCPService), or give a udpm:// URL");
+  }
+}
+
+void HearOnlyOwnGroup(const LcmUrl& url) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error)) {
+    const int fd = std::atoi(entry.path().filename().c_str());
+    sockaddr_in address{};
+    socklen_t size = sizeof address;
+    int type = 0;
+    socklen_t type_size = sizeof type;
+    if (::getsockopt(fd, SOL_SOCKET, SO_TYPE, &type, &type_size) != 0 || type != SOCK_DGRAM) continue;
+    if (::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) != 0 ||
+        address.sin_family != AF_INET || address.sin_port != htons(static_cast<std::uint16_t>(url.port)))
+      continue;
+    const int no = 0;
+    (void)::setsockopt(fd, IPPROTO_IP, IP_MULTICAST_ALL, &no, sizeof no);  // Linux 2.6.31; else as before
+  }
 }
 
 void RequireMulticastRoute(const LcmUrl& url) {

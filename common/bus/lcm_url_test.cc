@@ -18,6 +18,11 @@ TEST(LcmUrl, Parses) {
   EXPECT_EQ(standard.port, 7667);
   EXPECT_EQ(standard.receive_buffer, 0);
   EXPECT_FALSE(ParseLcmUrl("memq://").multicast);
+  EXPECT_TRUE(ParseLcmUrl("tcpq://").server);
+  EXPECT_EQ(ParseLcmUrl("tcpq://").port, 7700);
+  EXPECT_EQ(ParseLcmUrl("tcpq://robot").host, "robot");
+  EXPECT_EQ(ParseLcmUrl("tcpq://robot:7701").port, 7701);
+  EXPECT_THROW(ParseLcmUrl("tcpq://robot:x"), std::runtime_error);
 }
 
 TEST(LcmUrl, RefusesWhatIsMalformed) {

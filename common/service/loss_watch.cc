@@ -23,6 +23,28 @@ void LossWatch::Update(const std::map<std::string, std::int64_t>& counters) {
   }
   if (!text_.empty())
     text_ += " get lost: is net.core.rmem_max below 4 MiB, the link too slow, or the host too busy?";
+  const std::string senders = Senders(counters);
+  if (!senders.empty()) text_ = senders + (text_.empty() ? "" : "; " + text_);
+}
+
+std::string LossWatch::Senders(const std::map<std::string, std::int64_t>& counters) {
+  std::string two, none;
+  for (const auto& [name, value] : counters) {
+    const std::size_t dot = name.rfind('.');
+    if (dot == std::string::npos || value < 3) continue;
+    std::string* list = name.substr(dot) == ".two_senders"  ? &two
+                        : name.substr(dot) == ".unnumbered" ? &none
+                                                            : nullptr;
+    if (list != nullptr) *list += (list->empty() ? "" : ", ") + name.substr(0, dot);
+  }
+  std::string text;
+  if (!two.empty())
+    text = "two senders on " + two +
+           ": another pipeline or driver is on this bus; give one of them --prefix or a port of its own";
+  if (!none.empty())
+    text += (text.empty() ? "" : "; ") + none +
+            " not numbered (seq stays 0): what gets lost of them cannot be seen";
+  return text;
 }
 
 }  // namespace evit

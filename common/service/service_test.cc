@@ -58,6 +58,34 @@ TEST_F(ServiceTest, StatusGoesOutOnChangeAndOnceASecond) {
   EXPECT_EQ(status_[2].seq, 2);
 }
 
+TEST_F(ServiceTest, TwoSendersOnOneChannelAreTold) {
+  StatusReporter reporter(bus_.get(), channels_, "x", 1);
+  SequenceCounter counter(&reporter, "EVENTS");
+  counter.Commit(100, 0);
+  counter.Commit(200, 0);  // a restart
+  counter.Commit(200, 1);
+  EXPECT_FALSE(counter.two_senders());
+  for (int k = 0; k < 3; ++k) counter.Commit(100, 1 + k), counter.Commit(200, 2 + k);
+  EXPECT_TRUE(counter.two_senders());
+  EXPECT_GE(reporter.Counter("EVENTS.two_senders"), 3);
+}
+
+// A driver that never sets them: every message looks like the first again.
+TEST_F(ServiceTest, MessagesWithoutNumbersAreAllTaken) {
+  using Verdict = SequenceCounter::Verdict;
+  StatusReporter reporter(bus_.get(), channels_, "x", 1);
+  SequenceCounter counter(&reporter, "EVENTS");
+  EXPECT_EQ(counter.Commit(0, 0), Verdict::kNewEpoch);
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(counter.Commit(0, 0), Verdict::kNext);
+  EXPECT_EQ(reporter.Counter("EVENTS.received"), 6);
+  EXPECT_EQ(reporter.Counter("EVENTS.duplicate"), 0);
+  EXPECT_EQ(reporter.Counter("EVENTS.unnumbered"), 5);
+  // Of a sender that numbers its messages, the same is a repetition.
+  SequenceCounter numbered(&reporter, "IMU");
+  numbered.Commit(7, 0);
+  EXPECT_EQ(numbered.Commit(7, 0), Verdict::kOld);
+}
+
 TEST_F(ServiceTest, SequenceCounterTellsGapsDuplicatesAndRestarts) {
   using Verdict = SequenceCounter::Verdict;
   StatusReporter reporter(bus_.get(), channels_, "x", 1);

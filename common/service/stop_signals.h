@@ -4,8 +4,8 @@
 
 namespace evit {
 
-/// Turns SIGINT and SIGTERM into a flag while it lives, then puts back what was there. One at a time in a
-/// process.
+/// Turns SIGINT, SIGTERM and SIGHUP (the terminal is gone) into a flag while it lives, then puts back what
+/// was there. One at a time in a process.
 class StopSignals {
  public:
   StopSignals();
@@ -20,6 +20,7 @@ class StopSignals {
  private:
   struct sigaction old_int_ = {};
   struct sigaction old_term_ = {};
+  struct sigaction old_hup_ = {};
 };
 
 }  // namespace evit

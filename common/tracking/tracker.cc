@@ -113,8 +113,11 @@ void Tracker::StartAcrossGap(const KeyframeInput& keyframe) {
   BodyState start = state();
   if (keyframe.t <= state_time_) {
     start.velocity.setZero();
-    StartBootstrapping(start, TrackerMode::kBootstrapping,
-                       FormatText("the clock went back by %.0f ms: restarting from the last pose", -gap_ms));
+    const double back_ms = 1e-3 * static_cast<double>(state_time_ - keyframe.t);
+    StartBootstrapping(
+        start, TrackerMode::kBootstrapping,
+        back_ms > 0 ? FormatText("the clock went back by %.1f ms: restarting from the last pose", back_ms)
+                    : "two keyframes have the same time: restarting from the last pose");
     return;
   }
   const Utime unseen = keyframe.t - state_time_;

@@ -51,6 +51,8 @@ void FrameBuilder::OnData(const std::uint8_t* data, std::size_t size) {
   }
   if (verdict == StreamInbox::Verdict::kNewStream) {
     builder_.Reset();
+    guard_.Clear();
+    check_.Clear();
     flushed_ = false;
   }
   Work();
@@ -58,11 +60,17 @@ void FrameBuilder::OnData(const std::uint8_t* data, std::size_t size) {
 
 void FrameBuilder::Feed(const StreamInbox::Item& item) {
   if (const auto* packet = std::get_if<event_packet_t>(&item.message)) {
-    events_.clear();
-    AppendEvents(*packet, &events_);
-    builder_.AddEvents(events_, packet->n > 0 ? events_.t.back() : packet->utime);
+    EventArray events;
+    AppendEvents(*packet, &events);
+    const Utime watermark = packet->n > 0 ? events.t.back() : packet->utime;
+    check_.AddEvents(watermark);
+    guard_.AddEvents(std::move(events), watermark,
+                     [&](const EventArray& good, Utime known) { builder_.AddEvents(good, known); });
   } else {
-    for (const ImuSample& s : SamplesOf(std::get<imu_batch_t>(item.message))) builder_.AddImu(s);
+    for (const ImuSample& s : SamplesOf(std::get<imu_batch_t>(item.message))) {
+      check_.AddImu(s);
+      guard_.AddImu(s, [&](const ImuSample& good) { builder_.AddImu(good); });
+    }
   }
   if (credit_) {
     credit_->Consumed(inbox_.epoch(), inbox_.taken_events(), inbox_.taken_imu(), item.bytes);
@@ -76,6 +84,8 @@ void FrameBuilder::Work() {
     if (const auto item = inbox_.Take()) {
       Feed(*item);
     } else if (!flushed_ && inbox_.ended()) {
+      guard_.Flush([&](const EventArray& good, Utime known) { builder_.AddEvents(good, known); },
+                   [&](const ImuSample& good) { builder_.AddImu(good); });
       builder_.Flush();
       flushed_ = true;
       if (credit_) credit_->Ask();  // so that the sender knows at once that all has arrived
@@ -88,6 +98,13 @@ void FrameBuilder::Work() {
 
 void FrameBuilder::ReportState() {
   const std::int64_t awaited = builder_.awaited_feedback();
+  if (settings_.lossless && inbox_.two_senders()) {
+    status_.SetState(
+        "failed",
+        "two senders on EVENTS or IMU: another replay or driver is on this bus; give one of them --prefix "
+        "or a port of its own");
+    return;
+  }
   if (awaited >= 0 && std::chrono::steady_clock::now() - outbox_.moved() > kPatience) {
     status_.SetState("waiting", "window_optimizer does not answer keyframe " + std::to_string(awaited) +
                                     ": is it running, --lossless, on the same URL and prefix?");
@@ -96,6 +113,8 @@ void FrameBuilder::ReportState() {
     ReportCounters();
     status_.SetState("drained",
                      "the streams have ended; last keyframe " + std::to_string(outbox_.last_sent()));
+  } else if (const std::string complaint = check_.Complaint(); !complaint.empty()) {
+    status_.SetState("degraded", complaint);
   } else if (inbox_.epoch() != -1 && outbox_.last_sent() < 0) {
     status_.SetState("running", "filling the surface with events");
   } else if (inbox_.epoch() != -1) {
@@ -144,6 +163,10 @@ void FrameBuilder::ReportCounters() {
   const StreamMerger::Counters& c = builder_.counters();
   status_.Counter("events.outside") = c.events_outside;
   status_.Counter("events.late") = c.events_late;
+  status_.Counter("events.ahead") = guard_.counters().events_ahead;
+  status_.Counter("events.sorted") = guard_.counters().events_sorted;
+  status_.Counter("imu.ahead") = guard_.counters().imu_ahead;
+  status_.Counter("imu.samples") = guard_.counters().imu;
   status_.Counter("events.overrun") = builder_.events_overrun();
   status_.Counter("imu.late") = c.imu_late;
   status_.Counter("imu.invalid") = c.imu_invalid;

@@ -6,11 +6,13 @@
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
 #include "common/events/keyframe_builder.h"
+#include "common/events/stream_guard.h"
 #include "common/service/credit_sender.h"
 #include "common/service/runner.h"
 #include "common/service/sequence_counter.h"
 #include "common/service/status_reporter.h"
 #include "services/frame_builder/keyframe_outbox.h"
+#include "services/frame_builder/stream_check.h"
 #include "services/frame_builder/stream_inbox.h"
 
 namespace evit {
@@ -56,7 +58,8 @@ class FrameBuilder : public Service {
   std::optional<CreditSender> credit_;
   KeyframeBuilder builder_;
   KeyframeOutbox outbox_;
-  EventArray events_;  // kept for its memory
+  StreamGuard guard_;
+  StreamCheck check_;
   bool flushed_ = false;
 };
 

@@ -23,7 +23,10 @@ StreamInbox::Verdict StreamInbox::Admit(M message, std::size_t bytes, SequenceCo
   if (lossless_) {
     const bool first_of_run = seen == Seen::kNewEpoch && message.seq == 0;
     const bool next = seen != Seen::kNewEpoch && message.epoch == epoch_ && seen != Seen::kGap;
-    if (!first_of_run && !next) return Verdict::kRefused;  // it comes again, after what is missing
+    const bool foreign = seen == Seen::kNewEpoch && counter->IsOver(message.epoch);
+    if (foreign) counter->CountForeign();
+    if (foreign || (!first_of_run && !next))
+      return Verdict::kRefused;  // it comes again, after what is missing
   }
   const bool first_heard = counter->epoch() == -1;
   counter->Commit(message.epoch, message.seq);

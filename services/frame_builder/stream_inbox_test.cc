@@ -38,6 +38,16 @@ class StreamInboxTest : public ::testing::Test {
   StreamInbox lossless_{&status_, true}, live_{&status_, false};
 };
 
+// Another replay with its own log: what it sends is refused, and said.
+TEST_F(StreamInboxTest, LosslessRefusesAStreamThatIsOver) {
+  EXPECT_EQ(lossless_.Put(Events(7, 0), 10), Verdict::kNewStream);
+  EXPECT_EQ(lossless_.Put(Events(8, 0), 10), Verdict::kNewStream);
+  EXPECT_FALSE(lossless_.two_senders());
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(lossless_.Put(Events(7, 0), 10), Verdict::kRefused);
+  EXPECT_TRUE(lossless_.two_senders());
+  EXPECT_EQ(lossless_.Put(Events(8, 1), 10), Verdict::kTaken);
+}
+
 TEST_F(StreamInboxTest, LosslessTakesExactlyTheNext) {
   EXPECT_EQ(lossless_.Put(Events(7, 1), 10), Verdict::kRefused);  // joins at the beginning only
   EXPECT_EQ(lossless_.Put(Events(7, 0), 10), Verdict::kNewStream);

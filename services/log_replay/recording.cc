@@ -4,22 +4,9 @@
 #include <stdexcept>
 
 #include "common/bus/channels.h"
+#include "common/bus/log_prefix.h"
 
 namespace evit {
-
-namespace {
-
-bool EndsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-std::string Join(const std::vector<std::string>& names) {
-  std::string result;
-  for (const std::string& name : names) result += (result.empty() ? "" : ", ") + name;
-  return result;
-}
-
-}  // namespace
 
 Recording::Recording(const std::string& path, const std::string& prefix, bool allow_truncated)
     : path_(path), log_(path) {
@@ -29,7 +16,7 @@ Recording::Recording(const std::string& path, const std::string& prefix, bool al
                              " bytes after its last whole message (" + std::to_string(log_.entries().size()) +
                              " are whole); make it again, or replay what is whole with --allow-truncated");
   }
-  const Channels channels(FindPrefix(prefix));
+  const Channels channels(FindLogPrefix(path, log_.channels(), prefix));
   std::vector<int> kind_of(log_.channels().size(), -1);
   for (std::size_t c = 0; c < kind_of.size(); ++c) {
     const std::string& name = log_.channels()[c];
@@ -41,21 +28,6 @@ Recording::Recording(const std::string& path, const std::string& prefix, bool al
     const int kind = kind_of[static_cast<std::size_t>(entry.channel)];
     if (kind >= 0) messages_.push_back({entry, static_cast<Kind>(kind)});
   }
-}
-
-std::string Recording::FindPrefix(const std::string& prefix) const {
-  const std::vector<std::string>& names = log_.channels();
-  const std::string events = Channels().events;
-  if (std::find(names.begin(), names.end(), prefix + events) != names.end()) return prefix;
-  std::vector<std::string> candidates;
-  std::copy_if(names.begin(), names.end(), std::back_inserter(candidates),
-               [&events](const std::string& name) { return EndsWith(name, events); });
-  if (prefix.empty() && candidates.size() == 1) {
-    return candidates[0].substr(0, candidates[0].size() - events.size());
-  }
-  throw std::runtime_error(
-      "log " + path_ + " has no channel " + prefix + events + " (it has: " + Join(names) + "); " +
-      (candidates.empty() ? "make a log with `evit import`" : "choose one with --log-prefix"));
 }
 
 std::size_t Recording::FirstAt(std::int64_t utime) const {

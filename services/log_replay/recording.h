@@ -15,10 +15,9 @@ class Recording {
   /// The first two equal SendWindow::Stream.
   enum Kind { kEvents = 0, kImu = 1, kGroundTruth = 2 };
 
-  /// `prefix`: of the channel names in the log; where it is empty and the log has no EVENTS but exactly one
-  /// channel that ends in EVENTS, that one's prefix is taken. Throws std::runtime_error, naming file and
-  /// remedy, where the log is missing, unreadable, empty, no LCM log or without EVENTS; also where it is cut
-  /// off in the middle of a message, unless `allow_truncated`.
+  /// `prefix`: of the channel names in the log; empty: found (FindLogPrefix). Throws std::runtime_error,
+  /// naming file and remedy, where the log is missing, unreadable, empty, no LCM log or without EVENTS; also
+  /// where it is cut off in the middle of a message, unless `allow_truncated`.
   Recording(const std::string& path, const std::string& prefix, bool allow_truncated = false);
 
   const std::string& path() const { return path_; }
@@ -46,7 +45,6 @@ class Recording {
     LogEntry entry;
     Kind kind;
   };
-  std::string FindPrefix(const std::string& prefix) const;
 
   std::string path_;
   LogReader log_;

@@ -11,11 +11,16 @@ std::vector<ImuSample> ImuInbox::OnMessage(const std::uint8_t* data, std::size_t
     counter_.CountInvalid();
     return {};
   }
-  if (counter_.Commit(message.epoch, message.seq) == SequenceCounter::Verdict::kNewEpoch) history_.Clear();
-  std::vector<ImuSample> samples;
-  for (const ImuSample& sample : SamplesOf(message)) {
-    if (history_.Add(sample)) samples.push_back(sample);
+  if (counter_.Commit(message.epoch, message.seq) == SequenceCounter::Verdict::kNewEpoch) {
+    history_.Clear();
+    guard_.Clear();
   }
+  std::vector<ImuSample> samples;
+  const auto use = [&](const ImuSample& sample) {
+    if (history_.Add(sample)) samples.push_back(sample);
+  };
+  for (const ImuSample& sample : SamplesOf(message))
+    guard_.Push(sample, use, [&](const ImuSample&) { ++*ahead_; });
   return samples;
 }
 

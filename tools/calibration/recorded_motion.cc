@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "common/bus/channels.h"
 #include "common/bus/codec.h"
 #include "common/bus/log_file.h"
+#include "common/bus/log_prefix.h"
 #include "common/wire/imu_wire.h"
 
 namespace evit::calibration {
@@ -14,11 +16,9 @@ std::vector<ImuSample> ReadImu(const std::string& path, const ImuNoise& limits) 
   std::vector<ImuSample> samples;
   std::vector<std::uint8_t> bytes;
   imu_batch_t message;
-  const std::string end = "IMU";
+  const std::string channel = Channels(FindLogPrefix(path, log.channels(), "")).imu;
   for (const LogEntry& entry : log.entries()) {
-    const std::string& channel = log.channel(entry);
-    if (channel.size() < end.size() || channel.compare(channel.size() - end.size(), end.size(), end) != 0)
-      continue;
+    if (log.channel(entry) != channel) continue;
     log.Read(entry, &bytes);
     if (!DecodeChecked(bytes.data(), bytes.size(), &message)) continue;
     for (const ImuSample& s : SamplesOf(message)) {

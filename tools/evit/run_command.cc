@@ -82,6 +82,13 @@ void AddRunCommand(CLI::App* app) {
   run->add_option("--monitor-port", o->page.web.port, "Port of that page")
       ->check(CLI::Range(1, 65535))
       ->capture_default_str();
+  run->add_option("--log-prefix", o->job.play.log_prefix,
+                  "Prefix of EVENTS and IMU in the log (default: found, where there is only one)");
+  run->add_flag("--allow-truncated", o->job.tolerate.truncated,
+                "Run what is whole of a log that was cut off");
+  run->add_flag("--any-rig", o->job.tolerate.any_rig,
+                "Run even where the rig's T_body_camera looks like its inverse");
+  run->add_flag("--any-imu", o->job.tolerate.any_imu, "Run even where the IMU's units or axes look wrong");
   run->add_option("--lcm-url", o->job.lcm_url,
                   "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
   run->add_option("--prefix", o->job.prefix, "Prefix of all channels, so that several pipelines share a bus");
@@ -89,11 +96,15 @@ void AddRunCommand(CLI::App* app) {
       "Example: evit run --log desk.lcmlog --map desk/map.pcd --rig desk/rig.textproto --initial-from "
       "desk/truth.tum "
       "--out result\n"
-      "Exit code: 0 tracked to the end, 1 could not run, 2 LOST or never tracking, 130 interrupted.");
+      "Exit code: 0 tracked to the end; 1 could not run, or a result could not be written; 2 LOST, never "
+      "tracking, or\n"
+      "tracked less than half of the time; 3 tracked, but --truth has too few poses for a score; 130 "
+      "interrupted.");
   run->callback([o] {
     run::RunJob& job = o->job;
     if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
     job.initial_from = o->from;
+    job.tolerate.no_score = job.truth.empty();
     if (job.truth.empty()) job.truth = o->from;
     if (!o->seconds.empty()) job.play.seconds = ParseSeconds(o->seconds);
     job.play.lossless = !o->realtime;

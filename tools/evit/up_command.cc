@@ -15,6 +15,7 @@
 #include "tools/evit/commands.h"
 #include "tools/evit/data_file.h"
 #include "tools/evit/options.h"
+#include "tools/run/alone_on_bus.h"
 #include "tools/run/local_network.h"
 #include "tools/run/run_file.h"
 
@@ -74,14 +75,14 @@ void Up(const UpOptions& o) {
 
   const std::string url = ResolveLcmUrl(o.lcm_url);
   std::unique_ptr<run::RunFile> run_file;
+  bool own_network = false;
   if (run::IsLocalBus(o.lcm_url)) {
-    run::EnsureLocalMulticast(url);
+    own_network = run::EnsureLocalMulticast(url);
     run_file = std::make_unique<run::RunFile>(o.logs);
   }
   setenv("LCM_DEFAULT_URL", url.c_str(), 1);  // for the commands
-  const StopSignals signals;
-
   const auto bus = OpenLcmBus(url);
+  if (!own_network) run::RequireAlone(bus.get(), deputy_id);
   // What the commands say is shown as it comes over the bus, like in any sheriff.
   bus->Subscribe(procman::kPmOutput, [&](const std::string&, const std::uint8_t* data, std::size_t size) {
     procman_lcm::output_t message;
@@ -93,6 +94,7 @@ void Up(const UpOptions& o) {
   const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   procman::Deputy deputy(bus.get(), deputy_id, commands, {programs, o.logs});
   procman::ScriptRunner runner(deployment, &deputy.supervisor());
+  const StopSignals signals;
   runner.Run(o.script);
   bool running = false;
   while (!signals.received()) {

@@ -1,10 +1,9 @@
 #include "tools/pictures/consistency_plot.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
 
 #include "tools/pictures/chart.h"
+#include "tools/pictures/write_picture.h"
 
 namespace evit::pictures {
 namespace {
@@ -40,7 +39,7 @@ void PlotConsistency(const std::string& path, const std::string& title, const Co
     chart.series = {above, below, error};
     chart.Draw(&image, {k < 3 ? 10 : 755, 60 + 355 * (k % 3), 735, 350});
   }
-  if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
+  WritePicture(path, image);
 }
 
 }  // namespace evit::pictures

@@ -1,9 +1,7 @@
 #include "tools/pictures/run_plot.h"
 
-#include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
-
 #include "tools/pictures/chart.h"
+#include "tools/pictures/write_picture.h"
 
 namespace evit::pictures {
 namespace {
@@ -77,7 +75,7 @@ void PlotRun(const std::string& path, const std::string& title, const Trajectory
   top.Draw(&image, {980, 60, 510, 700});
   position_error.Draw(&image, {10, 765, 740, 350});
   rotation_error.Draw(&image, {755, 765, 735, 350});
-  if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
+  WritePicture(path, image);
 }
 
 }  // namespace evit::pictures

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "tools/pictures/write_picture.h"
 
 namespace evit::pictures {
 namespace {
@@ -104,16 +104,7 @@ TopView DrawTopView(const PointMap& map, int side, const std::vector<Eigen::Vect
 }
 
 void WriteTopView(const std::string& path, const PointMap& map) {
-  const cv::Mat picture = DrawTopView(map, kSide).picture;
-  bool written = false;
-  try {
-    written = cv::imwrite(path, picture);
-  } catch (const cv::Exception&) {  // an extension that OpenCV does not know
-  }
-  if (!written) {
-    throw std::runtime_error(path +
-                             ": cannot be written; check that the folder exists and the name ends in .png");
-  }
+  WritePicture(path, DrawTopView(map, kSide).picture);
 }
 
 }  // namespace evit::pictures

@@ -1,11 +1,11 @@
 #include "tools/run/memory_log.h"
 
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
 #include "procman/process_usage.h"
 #include "tools/pictures/chart.h"
+#include "tools/pictures/write_picture.h"
 
 namespace evit::run {
 
@@ -44,9 +44,7 @@ void MemoryLog::Write(const std::string& folder) const {
   if (!csv) throw std::runtime_error(folder + "/memory.csv: cannot be written");
   cv::Mat image(500, 1100, CV_8UC3, cv::Scalar(255, 255, 255));
   chart.Draw(&image, {10, 10, 1080, 480});
-  if (!cv::imwrite(folder + "/memory.png", image)) {
-    throw std::runtime_error(folder + "/memory.png: cannot be written");
-  }
+  pictures::WritePicture(folder + "/memory.png", image);
 }
 
 }  // namespace evit::run

@@ -66,6 +66,12 @@ bool Player::Over(double silence) const {
 void Player::RequireHealthy(double silence) const {
   std::string problem;
   if (silence > kStuck) problem = "no message from the tracker for 60 s";
+  if (const std::string& service = parts_.recorder->two_senders(); !service.empty()) {
+    throw std::runtime_error(
+        "two services say that they are " + service +
+        ": another pipeline is on this bus; give one of them --prefix NAME/ or another port in "
+        "--lcm-url");
+  }
   for (const auto& [name, status] : parts_.recorder->statuses()) {
     if (status.state == "failed") problem = name + " failed";
   }
@@ -90,8 +96,10 @@ void Player::PlayAgain() {
 void Player::PrintLoop(int loop) const {
   const Recorder& recorder = *parts_.recorder;
   const TrajectoryError error = AbsoluteError(inputs_.truth, recorder.online(), Alignment::kNone);
-  std::printf("loop %d: %zu poses, ATE %.2f cm, %s\n", loop, recorder.online().size(),
-              100 * error.position_rmse, recorder.mode().reason.c_str());
+  char ate[32] = "-";
+  if (error.scored()) std::snprintf(ate, sizeof ate, "%.2f cm", 100 * error.position_rmse);
+  std::printf("loop %d: %zu poses, ATE %s, %s\n", loop, recorder.online().size(), ate,
+              recorder.mode().reason.c_str());
   std::fflush(stdout);
 }
 

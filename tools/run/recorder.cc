@@ -34,8 +34,18 @@ Recorder::Recorder(Bus* bus, const Channels& channels) {
                  });
   bus->Subscribe(channels.status, [this](const std::string&, const std::uint8_t* data, std::size_t size) {
     service_status_t message;
-    if (DecodeChecked(data, size, &message)) statuses_[message.service] = message;
+    if (DecodeChecked(data, size, &message)) OnStatus(message);
   });
+}
+
+void Recorder::OnStatus(const service_status_t& message) {
+  const auto before = statuses_.find(message.service);
+  if (before != statuses_.end() && before->second.epoch != message.epoch) {
+    // A last word of one that was restarted may come late; two at work speak in turn.
+    if (epochs_[message.service].count(message.epoch) > 0 && ++turns_ >= 3) two_senders_ = message.service;
+    epochs_[message.service].insert(before->second.epoch);
+  }
+  statuses_[message.service] = message;
 }
 
 void Recorder::OnWindow(const window_state_t& message) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <fstream>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,12 +51,16 @@ class Recorder {
     return online_.empty() ? 0 : solve_ms_ / static_cast<double>(online_.size());
   }
 
+  /// A service of whose STATUS two epochs come in turn: another pipeline is on this bus. Empty: none.
+  const std::string& two_senders() const { return two_senders_; }
+
   /// frame_builder has used everything and the tracker has answered its last keyframe.
   bool Finished() const;
   /// Something came since the last call (to notice silence).
   bool TakeActivity();
 
  private:
+  void OnStatus(const service_status_t& message);
   void OnWindow(const window_state_t& message);
   void OnMode(const tracker_mode_t& message);
 
@@ -67,6 +72,9 @@ class Recorder {
   tracker_mode_t mode_{};
   std::int64_t earlier_keyframes_ = 0;  // of earlier runs of frame_builder
   std::map<std::string, service_status_t> statuses_;
+  std::map<std::string, std::set<std::int64_t>> epochs_;  // of each service, that are over
+  std::string two_senders_;
+  int turns_ = 0;  // how often an epoch that was over spoke
   double solve_ms_ = 0;
   bool active_ = false;
 };

@@ -95,6 +95,20 @@ TEST_F(RecorderTest, CovariancesAreInStepWithTheOnlinePoses) {
   EXPECT_TRUE(recorder_.covariances().empty());
 }
 
+TEST_F(RecorderTest, TwoPipelinesOnOneBusAreNoticed) {
+  const auto status = [&](std::int64_t epoch) {
+    service_status_t m{};
+    m.service = "frame_builder";
+    m.state = "running";
+    m.epoch = epoch;
+    Send(channels_.status, m);
+  };
+  for (const std::int64_t epoch : {1, 1, 2, 2, 3}) status(epoch);  // restarts
+  EXPECT_EQ(recorder_.two_senders(), "");
+  for (int k = 0; k < 4; ++k) status(7), status(8);
+  EXPECT_EQ(recorder_.two_senders(), "frame_builder");
+}
+
 TEST_F(RecorderTest, RepeatedOrOlderStatesAddNothing) {
   SendWindow(0, 2, 0.1);
   SendWindow(0, 2, 0.2);

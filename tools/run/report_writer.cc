@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/evaluation/trajectory_error.h"
+#include "common/evaluation/trajectory_pairs.h"
 
 namespace evit::run {
 namespace {
@@ -65,16 +66,20 @@ void FillFromRecorder(const Recorder& recorder, report::Report* report) {
 }
 
 void FillErrors(const Trajectory& truth, const Trajectory& estimate, report::Report* report) {
-  report->set_coverage(AbsoluteError(truth, estimate, Alignment::kNone).coverage);
+  const TrajectoryError whole = AbsoluteError(truth, estimate, Alignment::kNone);
+  report->set_coverage(whole.coverage);
+  report->set_not_scored(whole.scored() ? UnscoredText(truth, estimate) : TooFewPairsText(truth, estimate));
   for (const auto& row : {std::pair("none", Alignment::kNone), std::pair("first pair", Alignment::kFirstPair),
                           std::pair("umeyama", Alignment::kUmeyama)}) {
+    const TrajectoryError all = AbsoluteError(truth, estimate, row.second);
+    if (!all.scored()) continue;
     report::Milestones* out = report->add_ate();
     out->set_alignment(row.first);
-    Fill(AbsoluteError(truth, estimate, row.second), out->mutable_all());
+    Fill(all, out->mutable_all());
     const auto milestone = [&](double share) { return MilestoneError(truth, estimate, row.second, share); };
-    if (const auto e = milestone(0.3); e.n_pairs > 0) Fill(e, out->mutable_at_30_percent());
-    if (const auto e = milestone(0.5); e.n_pairs > 0) Fill(e, out->mutable_at_50_percent());
-    if (const auto e = milestone(1.0); e.n_pairs > 0) Fill(e, out->mutable_at_100_percent());
+    if (const auto e = milestone(0.3); e.scored()) Fill(e, out->mutable_at_30_percent());
+    if (const auto e = milestone(0.5); e.scored()) Fill(e, out->mutable_at_50_percent());
+    if (const auto e = milestone(1.0); e.scored()) Fill(e, out->mutable_at_100_percent());
   }
 }
 

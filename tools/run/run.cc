@@ -9,6 +9,7 @@
 #include "common/bus/lcm_bus.h"
 #include "common/service/runner.h"
 #include "common/service/stop_signals.h"
+#include "tools/run/alone_on_bus.h"
 #include "tools/run/bus_log.h"
 #include "tools/run/latency_probe.h"
 #include "tools/run/local_network.h"
@@ -30,14 +31,14 @@ int Run(const RunJob& job) {
   // Before the bus, whose threads would keep the old network.
   const std::string url = ResolveLcmUrl(job.lcm_url);
   std::unique_ptr<RunFile> run_file;
+  bool own_network = false;
   if (IsLocalBus(job.lcm_url)) {
-    EnsureLocalMulticast(url);
+    own_network = EnsureLocalMulticast(url);
     run_file = std::make_unique<RunFile>(job.out);
   }
 
-  const StopSignals signals;
-
   const auto bus = OpenLcmBus(url);
+  if (!own_network) RequireAlone(bus.get(), "evit" + job.prefix);
   const Channels channels(job.prefix);
   Recorder recorder(bus.get(), channels);
   std::unique_ptr<BusLog> bus_log;
@@ -50,8 +51,8 @@ int Run(const RunJob& job) {
   const auto begin = std::chrono::steady_clock::now();
   const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   Outages outages(bus.get(), channels);
-  Pipeline pipeline(bus.get(), "evit" + job.prefix, ServiceCommands(job, url, inputs.start), programs,
-                    job.out);
+  const StopSignals signals;  // LCM's own test of the network, until here, ends with the process at Ctrl-C
+  Pipeline pipeline(bus.get(), "evit" + job.prefix, ServiceCommands(job, url, inputs), programs, job.out);
   RunOutcome outcome;
   outcome.begin = begin;
   Remote remote(bus.get(), channels);

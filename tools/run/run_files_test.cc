@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -36,6 +37,7 @@ class RunFilesTest : public ::testing::Test {
     job_.rig = test::SourcePath("config/vector/rig.textproto");
     job_.config = test::SourcePath("config/tracker.textproto");
     job_.out = Path("out");
+    job_.tolerate.any_imu = true;  // made-up numbers
     job_.truth = job_.initial_from = Path("truth.tum");
     WriteLog(0);
     Trajectory truth;
@@ -53,20 +55,29 @@ class RunFilesTest : public ::testing::Test {
   std::string Path(const std::string& name) const { return (folder_ / name).string(); }
 
   /// `shift`: of the log's own clock against the sensor's, us, as in lcm-logger's logs.
-  void WriteLog(Utime shift) const {
+  void WriteLog(Utime shift, const std::function<void(imu_batch_t*)>& change = nullptr,
+                const std::string& other_imu = "") const {
     LogWriter log(job_.log);
     std::vector<std::uint8_t> bytes;
     for (int k = 0; k <= 100; ++k) {
       auto imu = Sample<imu_batch_t>(1);
       imu.seq = k;
       imu.utime = imu.sample_utime[0] = kStart + Utime{10'000} * k;
+      const Utime stamp = imu.utime;
+      if (!other_imu.empty()) {
+        auto other = imu;
+        other.utime = other.sample_utime[0] = stamp - 77'000'000;
+        EncodeTo(other, &bytes);
+        log.Write(stamp + shift, other_imu, bytes.data(), bytes.size());
+      }
+      if (change) change(&imu);
       EncodeTo(imu, &bytes);
-      log.Write(imu.utime + shift, "IMU", bytes.data(), bytes.size());
+      log.Write(stamp + shift, "IMU", bytes.data(), bytes.size());
       auto events = Sample<event_packet_t>(30);
       events.seq = k;
-      events.utime = imu.utime;
+      events.utime = stamp;
       EncodeTo(events, &bytes);
-      log.Write(imu.utime + shift, "EVENTS", bytes.data(), bytes.size());
+      log.Write(stamp + shift, "EVENTS", bytes.data(), bytes.size());
     }
     log.Close();
   }
@@ -107,6 +118,48 @@ TEST_F(RunFilesTest, LogsStampedByTheHostCountInSensorTime) {
   EXPECT_EQ(inputs.n_events, 101 * 30);
 }
 
+// Another sensor's channel ends like ours.
+TEST_F(RunFilesTest, ChannelsThatOnlyEndLikeOursAreLeftAlone) {
+  WriteLog(0, nullptr, "XSENS_IMU");
+  const RunInputs inputs = PrepareRun(job_);
+  EXPECT_EQ(inputs.begin, kStart);
+  EXPECT_EQ(inputs.end, kStart + 1'000'000);
+  EXPECT_EQ(inputs.log_prefix, "");
+}
+
+TEST_F(RunFilesTest, TwoClocksAreToldFromTheStamps) {
+  WriteLog(0, [](imu_batch_t* m) { m->utime = m->sample_utime[0] = m->utime - kStart; });
+  ExpectRefused(AllOf(HasSubstr("a.lcmlog"), HasSubstr("two clocks")));
+}
+
+TEST_F(RunFilesTest, AnImuThatCannotBeIsToldAtTheStart) {
+  job_.tolerate.any_imu = false;
+  const auto reads = [&](double z) {
+    WriteLog(0, [z](imu_batch_t* m) {
+      m->gyro[0] = {0, 0, 0};
+      m->accel[0] = {0, 0, z};
+    });
+  };
+  reads(9.81);
+  EXPECT_NO_THROW(PrepareRun(job_));
+  std::filesystem::remove_all(job_.out);
+  reads(1);
+  ExpectRefused(AllOf(HasSubstr("in g"), HasSubstr("--accel-unit")));
+  reads(0.01);
+  ExpectRefused(HasSubstr("taken off"));
+  reads(-9.81);
+  ExpectRefused(HasSubstr("sign turned"));
+}
+
+TEST_F(RunFilesTest, SlowTruthGivesTheStartAndTheScore) {
+  Trajectory truth;
+  for (int k = 0; k <= 100; k += 25) truth.push_back({kStart - 100'000 + Utime{10'000} * k, At(k)});
+  WriteTum(job_.truth, truth);
+  const RunInputs inputs = PrepareRun(job_);
+  EXPECT_NEAR(inputs.start.p.x(), 0.1, 1e-6);
+  EXPECT_EQ(inputs.truth.size(), 4U);
+}
+
 TEST_F(RunFilesTest, GivenPoseNeedsNoTruth) {
   job_.initial_pose = At(7);
   job_.initial_from = job_.truth = "";
@@ -140,6 +193,14 @@ TEST_F(RunFilesTest, EachUnusableFileIsNamedBeforeAnythingIsWritten) {
 TEST_F(RunFilesTest, CutLogIsRefused) {
   std::filesystem::resize_file(job_.log, std::filesystem::file_size(job_.log) - 5);
   ExpectRefused(AllOf(HasSubstr("a.lcmlog"), HasSubstr("truncated")));
+}
+
+TEST_F(RunFilesTest, CutLogRunsAsFarAsItGoesWhereThatIsAskedFor) {
+  std::filesystem::resize_file(job_.log, std::filesystem::file_size(job_.log) - 5);
+  job_.tolerate.truncated = true;
+  const RunInputs inputs = PrepareRun(job_);
+  EXPECT_EQ(inputs.n_events, 100 * 30);
+  EXPECT_GT(inputs.lost_bytes, 0);
 }
 
 TEST_F(RunFilesTest, TruthOfAnotherTimeIsRefused) {
@@ -176,6 +237,16 @@ TEST_F(RunFilesTest, ReportHoldsTheErrors) {
   EXPECT_FALSE(json["ate"][0].contains("at_100_percent"));  // not reached
   EXPECT_THAT([&] { WriteReport(Path("no/report.json"), report); },
               ThrowsMessage<std::runtime_error>(HasSubstr("no/report.json")));
+}
+
+TEST_F(RunFilesTest, ReportHasNoErrorOfTooFewPairs) {
+  Trajectory truth, estimate;
+  for (int k = 0; k <= 100; ++k) estimate.push_back({kStart + Utime{10'000} * k, At(k)});
+  truth = {estimate[0], estimate[80]};
+  report::Report report;
+  FillErrors(truth, estimate, &report);
+  EXPECT_EQ(report.ate_size(), 0);
+  EXPECT_THAT(report.not_scored(), HasSubstr("only 2 pairs"));
 }
 
 TEST_F(RunFilesTest, ReportAndPlotShowConsistency) {

@@ -11,11 +11,13 @@ namespace evit::run {
 
 /// What a run starts from, found before anything is started.
 struct RunInputs {
-  Utime begin = 0, end = 0;   // sensor time of the part that will be played
-  std::int64_t n_events = 0;  // in that part
-  std::string settings;       // every value in force, a settings file
-  std::optional<SE3> start;   // T_map_body at `begin`; none: to be found
-  Trajectory truth;           // of that part; empty: none
+  Utime begin = 0, end = 0;     // sensor time of the part that will be played
+  std::int64_t n_events = 0;    // in that part
+  std::string log_prefix;       // of the log's channels
+  std::int64_t lost_bytes = 0;  // of a log that was cut off: what is not played
+  std::string settings;         // every value in force, a settings file
+  std::optional<SE3> start;     // T_map_body at `begin`; none: to be found
+  Trajectory truth;             // of that part; empty: none
 };
 
 /// Reads and checks every file of `job`, then makes the folder job.out and removes the results of an earlier

@@ -14,6 +14,15 @@ struct Playback {
   double speed = 1;                                  // in real time: this many times faster
   int loops = 1;                                     // in real time: played this often
   std::optional<std::pair<double, double>> seconds;  // part of the log
+  std::string log_prefix;                            // of the log's channels; empty: found
+};
+
+/// What a run goes on with, though it looks wrong.
+struct Tolerance {
+  bool truncated = false;  // a log that was cut off: what is whole of it is played
+  bool any_imu = false;    // an IMU whose units or axes look wrong
+  bool any_rig = false;    // extrinsics that look inverted
+  bool no_score = true;    // a truth with too few poses for a score
 };
 
 /// What is known of the place, where there is no start pose: texts of ParsePlacePrior().
@@ -32,6 +41,7 @@ struct RunJob {
       initial_from;  // else: TUM file to take it from, at the start of the log; neither: it is looked for
   PlaceTexts place;
   Playback play;
+  Tolerance tolerate;
   std::string lcm_url, prefix;
   std::string command;  // for the report
   std::string record;   // log to write KEYFRAME and WINDOW_STATE to; empty: none

@@ -6,12 +6,16 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "common/text/format_text.h"
 #include "tools/pictures/consistency_plot.h"
 #include "tools/pictures/run_plot.h"
 #include "tools/run/report_writer.h"
 
 namespace evit::run {
 namespace {
+
+constexpr double kMinTracked = 0.5;    // share of the time, below which a run is no success
+constexpr double kMaxUntimely = 0.05;  // share of events or samples that may be left out for their stamps
 
 // Only what was played counts: an interrupted run has seen a part.
 double PlayedSeconds(const RunInputs& inputs, const Recorder& recorder, const RunOutcome& outcome) {
@@ -88,7 +92,7 @@ void PrintLatency(const report::Report& report) {
 
 std::string Title(const RunJob& job, const report::Report& report) {
   std::string name = std::filesystem::path(job.log).stem().string();
-  if (report.ate().empty()) return name;
+  if (report.ate().empty()) return name + (report.not_scored().empty() ? "" : ": no score");
   const report::Error& all = report.ate(0).all();
   char text[160];
   std::snprintf(text, sizeof text,
@@ -97,18 +101,93 @@ std::string Title(const RunJob& job, const report::Report& report) {
   return name + text;
 }
 
-// Messages that a service noticed missing or had no time for.
-double Lost(const report::Report& report) {
-  const auto ends = [](const std::string& name, const std::string& end) {
-    return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
-  };
-  double lost = 0;
+bool Ends(const std::string& name, const std::string& end) {
+  return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+}
+
+// The sum of the services' counters of which `is` says so.
+template <typename Is>
+double Sum(const report::Report& report, const Is& is) {
+  double sum = 0;
   for (const report::Service& service : report.services()) {
     for (const auto& [name, value] : service.counters()) {
-      if (name != "mode.lost" && (ends(name, ".lost") || ends(name, ".dropped"))) lost += value;
+      if (is(name)) sum += value;
     }
   }
-  return lost;
+  return sum;
+}
+
+// Messages that a service noticed missing or had no time for. In lossless mode what got lost was sent again.
+std::string LossText(const report::Report& report) {
+  if (report.lossless()) return "lossless: every message arrived";
+  const double lost = Sum(report, [](const std::string& name) {
+    return name != "mode.lost" && (Ends(name, ".lost") || Ends(name, ".dropped"));
+  });
+  return FormatText("%.0f messages lost", lost);
+}
+
+// What arrived and could not be used for its time.
+struct Untimely {
+  double events = 0, imu = 0;  // counts
+  double imu_share = 0, events_share = 0;
+};
+
+Untimely UntimelyOf(const report::Report& report) {
+  const auto count = [&](const char* name) {
+    for (const report::Service& service : report.services()) {
+      const auto found = service.counters().find(name);
+      if (service.name() == "frame_builder" && found != service.counters().end()) return found->second;
+    }
+    return 0.0;
+  };
+  Untimely out;
+  out.events = count("events.late") + count("events.ahead");
+  out.imu = count("imu.late") + count("imu.ahead");
+  if (report.events() > 0) out.events_share = out.events / report.events();
+  if (count("imu.samples") > 0) out.imu_share = out.imu / count("imu.samples");
+  return out;
+}
+
+// Share of the time that was played in which poses came, at most half a second apart.
+double TrackedShare(const Trajectory& poses, double seconds) {
+  constexpr Utime kTogether = 500'000;  // us
+  Utime covered = 0;
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    const Utime step = poses[k].t - poses[k - 1].t;
+    if (step <= kTogether) covered += step;
+  }
+  return seconds > 0 ? ToSeconds(covered) / seconds : 0;
+}
+
+// Why the run is no success; empty where it is.
+std::string Failure(const report::Report& report, const Recorder& recorder, double tracked,
+                    const Untimely& untimely) {
+  if (report.keyframes() == 0) return "no keyframe was tracked; " + StatusText(recorder);
+  if (report.final_mode() != "TRACKING")
+    return report.final_mode() + " at the end: " + recorder.mode().reason;
+  if (tracked < kMinTracked)
+    return FormatText(
+        "poses cover only %.0f %% of the time that was played; mode_changes in report.json say why",
+        100 * tracked);
+  if (untimely.events_share > kMaxUntimely || untimely.imu_share > kMaxUntimely) {
+    return FormatText(
+        "%.0f %% of the events and %.0f %% of the IMU samples came too late or lie far ahead: their "
+        "stamps are out of order; import the recording again, which sorts or names them",
+        100 * untimely.events_share, 100 * untimely.imu_share);
+  }
+  return "";
+}
+
+// A picture that cannot be written costs no result: what is there is kept, and it is said.
+template <typename Plot>
+bool Draw(const Plot& plot) {
+  try {
+    plot();
+    return true;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "evit run: %s\n", error.what());
+    return false;
+  }
 }
 
 }  // namespace
@@ -141,31 +220,38 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
   WriteCovariances(job.out + "/covariance.csv", recorder.covariances());
   WriteReport(job.out + "/report.json", report);
   const std::string title = Title(job, report);
-  pictures::PlotRun(job.out + "/trajectory.png", title, inputs.truth, online);
+  bool drawn = Draw([&] { pictures::PlotRun(job.out + "/trajectory.png", title, inputs.truth, online); });
 
   std::printf("%s\n", title.c_str());
+  if (!report.not_scored().empty()) std::printf("%s\n", report.not_scored().c_str());
   const bool scored = !consistency.errors.empty();
   if (scored) {
     const std::string text = ConsistencyText(consistency);
-    pictures::PlotConsistency(job.out + "/consistency.png", text, consistency);
+    drawn =
+        Draw([&] { pictures::PlotConsistency(job.out + "/consistency.png", text, consistency); }) && drawn;
     std::printf("%s\n", text.c_str());
   }
   std::printf("%d keyframes (%.0f Hz), %.1f s in %.1f s: real-time factor %.2f; %.1f ms CPU per keyframe\n",
               report.keyframes(), report.keyframe_rate_hz(), report.sequence_s(), report.wall_s(),
               report.real_time_factor(), report.cpu_ms_per_keyframe());
   if (outcome.latency != nullptr) PrintLatency(report);
-  std::printf("%.0f messages lost, services restarted %zu times\n", Lost(report), pipeline.deaths().size());
+  std::printf("%s, services restarted %zu times\n", LossText(report).c_str(), pipeline.deaths().size());
+  const Untimely untimely = UntimelyOf(report);
+  if (untimely.events + untimely.imu > 0)
+    std::printf("left out for their stamps (too late, or far ahead): %.0f events, %.0f IMU samples\n",
+                untimely.events, untimely.imu);
+  if (inputs.lost_bytes > 0)
+    std::printf("the log was cut off: its last %lld bytes are no whole message and were not played\n",
+                static_cast<long long>(inputs.lost_bytes));
   std::printf("results: %s/{trajectory.tum,smoothed.tum,covariance.csv,report.json,trajectory.png%s}\n",
               job.out.c_str(), scored ? ",consistency.png" : "");
   std::fflush(stdout);
-  if (report.keyframes() == 0 || report.final_mode() != "TRACKING") {
-    std::fprintf(stderr, "evit run: %s\n",
-                 report.keyframes() == 0
-                     ? ("no keyframe was tracked; " + StatusText(recorder)).c_str()
-                     : (report.final_mode() + " at the end: " + recorder.mode().reason).c_str());
-    return 2;
-  }
-  return outcome.ended == "interrupted" ? 130 : 0;
+  const std::string failure = Failure(report, recorder, TrackedShare(online, report.sequence_s()), untimely);
+  if (!failure.empty()) std::fprintf(stderr, "evit run: %s\n", failure.c_str());
+  if (outcome.ended == "interrupted") return 130;
+  if (!failure.empty()) return 2;
+  if (!drawn) return 1;
+  return !job.tolerate.no_score && report.ate().empty() ? 3 : 0;
 }
 
 }  // namespace evit::run

@@ -26,15 +26,15 @@ void RemoveRestartFiles(const RunJob& job) {
 }
 
 std::vector<procman::ProcmanCommand> ServiceCommands(const RunJob& job, const std::string& url,
-                                                     const std::optional<SE3>& start) {
+                                                     const RunInputs& inputs) {
   RemoveRestartFiles(job);  // of an earlier run
   std::vector<std::string> map_server{"map_server"};
   if (!job.map.empty()) map_server.insert(map_server.end(), {"--map", job.map});
   if (!job.photometric_map.empty())
     map_server.insert(map_server.end(), {"--photometric-map", job.photometric_map});
   std::vector<std::string> optimizer{"window_optimizer", "--rig", job.rig};
-  if (start) {
-    optimizer.insert(optimizer.end(), {"--initial-pose", PoseText(*start)});
+  if (inputs.start) {
+    optimizer.insert(optimizer.end(), {"--initial-pose", PoseText(*inputs.start)});
   } else {
     map_server.emplace_back("--places");
   }
@@ -47,6 +47,8 @@ std::vector<procman::ProcmanCommand> ServiceCommands(const RunJob& job, const st
     for (auto* words : {&optimizer, &builder}) words->insert(words->end(), {"--config", job.config});
   }
   std::vector<std::string> replay{"log_replay", "--log", job.log};
+  if (!inputs.log_prefix.empty()) replay.insert(replay.end(), {"--log-prefix", inputs.log_prefix});
+  if (job.tolerate.truncated) replay.emplace_back("--allow-truncated");
   if (job.play.seconds) {
     const auto [begin, end] = *job.play.seconds;
     replay.insert(replay.end(), {"--seconds", std::to_string(begin) + ":" + std::to_string(end)});
