@@ -22,9 +22,9 @@ class RigReading : public test::ConfigFilesTest {
 };
 
 TEST_F(RigReading, SecondsPastedAsMicrosecondsAreNoticed) {
-  ExpectEditRefused("time_offset_us: 0", "time_offset_us: 0.0054", "rig.textproto",
+  ExpectEditRefused("time_offset_us: 0", "time_offset_us: 0.0054", ":14",
                     {"time_offset_us", "looks like seconds", "5400"});
-  ExpectEditRefused("time_offset_us: 0", "time_offset_us: 5400000", "rig.textproto", {"more than a second"});
+  ExpectEditRefused("time_offset_us: 0", "time_offset_us: 5400000", ":14", {"more than a second"});
 }
 
 TEST_F(RigReading, ShippedFilesLoad) {

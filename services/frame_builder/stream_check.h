@@ -25,9 +25,9 @@ class StreamCheck {
   std::vector<ImuSample> first_;  // until they have been looked at
   bool looked_ = false;
   std::string units_;
-  std::int64_t n_events_ = 0, n_imu_ = 0;  // messages, samples
   Utime event_ = 0, imu_ = 0;              // newest stamps, when both streams last moved
   Utime newest_imu_ = 0;
+  std::int64_t apart_ = 0;  // how often in a row they were of two clocks
   bool imu_moved_ = false;  // since the last packet: where one stream stands still, stamps drift apart
 };
 

@@ -156,7 +156,8 @@ TEST_F(RunFilesTest, SlowTruthGivesTheStartAndTheScore) {
   for (int k = 0; k <= 100; k += 25) truth.push_back({kStart - 100'000 + Utime{10'000} * k, At(k)});
   WriteTum(job_.truth, truth);
   const RunInputs inputs = PrepareRun(job_);
-  EXPECT_NEAR(inputs.start.p.x(), 0.1, 1e-6);
+  ASSERT_TRUE(inputs.start.has_value());
+  EXPECT_NEAR(inputs.start->p.x(), 0.1, 1e-6);
   EXPECT_EQ(inputs.truth.size(), 4U);
 }
 
