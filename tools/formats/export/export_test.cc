@@ -42,6 +42,7 @@ class ExportTest : public ::testing::Test {
     const ExportSummary summary = ExportLog(job, [](double) {});
     EXPECT_EQ(summary.n_events, static_cast<std::int64_t>(made_.events.size()));
     RecordingImport again;
+    again.any_imu = true;  // made-up numbers
     again.paths = {job.out};
     again.out = folder_.File("again.lcmlog");
     if (!folder) {
