@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/bus/log_file.h"
+#include "common/config/rig_file.h"
 #include "common/map/map_file.h"
 #include "tests/helpers/paths.h"
 #include "tests/helpers/sample_messages.h"
@@ -149,6 +150,22 @@ TEST_F(RunFilesTest, AnImuThatCannotBeIsToldAtTheStart) {
   ExpectRefused(HasSubstr("taken off"));
   reads(-9.81);
   ExpectRefused(HasSubstr("sign turned"));
+}
+
+// Kalibr's T_cam_imu pasted as T_body_camera: the map lies on the sample's events with the inverse only.
+TEST_F(RunFilesTest, ExtrinsicsThatWereNotInvertedAreNoticed) {
+  job_.log = test::SourcePath("logs/sample.lcmlog");
+  job_.map = test::SourcePath("logs/sample_map.pcd");
+  job_.rig = test::SourcePath("logs/rig.textproto");
+  job_.truth = job_.initial_from = test::SourcePath("logs/sample_truth.tum");
+  job_.tolerate.any_imu = false;
+  EXPECT_NO_THROW(PrepareRun(job_));
+  std::filesystem::remove_all(job_.out);
+  Rig rig = LoadRig(job_.rig);
+  rig.T_body_camera = rig.T_body_camera.Inverse();
+  job_.rig = Path("rig.textproto");
+  WriteRig(job_.rig, rig, "not inverted", "");
+  ExpectRefused(AllOf(HasSubstr("rig.textproto"), HasSubstr("looks like its inverse")));
 }
 
 TEST_F(RunFilesTest, SlowTruthGivesTheStartAndTheScore) {
