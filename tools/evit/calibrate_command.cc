@@ -54,7 +54,8 @@ void CalibrateWithTruth(const CalibrateOptions& o) {
   const Trajectory body = calibration::ReadTruth(files);
   std::printf("reading %s\n", o.job.log.c_str());
   std::fflush(stdout);
-  const std::vector<MapView> views = calibration::ReadViews(files, before, body, calibration::CalibrationViews());
+  const std::vector<MapView> views =
+      calibration::ReadViews(files, before, body, calibration::CalibrationViews());
   std::printf("calibrating from %zu views\n", views.size());
   std::fflush(stdout);
   const OverlapCalibration found = CalibrateByOverlap(views, body, before);
