@@ -268,6 +268,46 @@ const std::vector<Fault>& Faults() {
        [](Sample* s) {
          for (Eigen::Vector3f& p : s->map.points) p += Eigen::Vector3f(0.7F, 0.4F, 0.3F);
        }},
+      {"GyroZero", "imu-gyro-unit",
+       [](Sample* s) {
+         for (ImuSample& i : s->imu) i.gyro.setZero();
+       }},
+      {"ImuStampsRepeat", "imu-order",
+       [](Sample* s) {
+         for (std::size_t k = 3; k < s->imu.size(); k += 3) s->imu[k].t = s->imu[k - 1].t;
+       }},
+      {"ImuVibrates", "imu-noise",
+       [](Sample* s) {
+         std::mt19937 random(3);
+         std::normal_distribution<double> noise(0, 0.4);
+         for (ImuSample& i : s->imu)
+           for (int axis = 0; axis < 3; ++axis)
+             i.gyro[axis] += noise(random), i.accel[axis] += 2 * noise(random);
+       }},
+      {"AccelerometerInCentimetres", "imu-accel-unit",
+       [](Sample* s) {
+         for (ImuSample& i : s->imu) i.accel *= 100;
+       }},
+      {"PixelsSubsampled", "dead-pixels",
+       [](Sample* s) {
+         KeepEvents(s, [s](std::size_t k) { return s->events.x[k] % 2 == 0 && s->events.y[k] % 2 == 0; });
+       }},
+      {"CameraClockHalfASecondOff", "time-offset",
+       [](Sample* s) {
+         for (Utime& t : s->events.t) t += 500'000;
+       }},
+      {"ImageMirroredTopToBottom", "map-overlap",
+       [](Sample* s) {
+         for (std::uint16_t& y : s->events.y) y = static_cast<std::uint16_t>(239 - y);
+       }},
+      {"ExtrinsicsTurnedAboutTheOpticalAxis", "map-overlap",
+       [](Sample* s) {
+         s->rig.T_body_camera = s->rig.T_body_camera * SE3(ExpSO3({0, 0, M_PI / 2}), {0, 0, 0});
+       }},
+      {"MapInCentimetres", "map-unit",
+       [](Sample* s) {
+         for (Eigen::Vector3f& p : s->map.points) p *= 100;
+       }},
       {"TruthOfTheCamera", "truth-frame",
        [](Sample* s) {
          for (StampedPose& p : s->truth) p.pose = p.pose * s->rig.T_body_camera;

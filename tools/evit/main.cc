@@ -24,6 +24,7 @@ int Main(int argc, char** argv) {
   CLI::App app{
       "EVIT: tracks an event camera and an IMU in 6-DoF against a semi-dense map.\n"
       "A first run: evit simulate, evit import vector, evit run; see README.md."};
+  app.set_version_flag("--version", EVIT_VERSION);
   app.require_subcommand(1);
   evit::commands::AddImportCommand(&app);
   evit::commands::AddExportCommand(&app);
