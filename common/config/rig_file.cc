@@ -18,7 +18,9 @@ namespace {
 
 // A rig file's message, and where its values stand.
 struct RigText {
-  explicit RigText(const std::string& file) : path(file), settings(ParseTextFile(file, &message)) {}
+  explicit RigText(const std::string& file, bool partial = false)
+      : path(file),
+        settings(partial ? ParsePartialTextFile(file, &message) : ParseTextFile(file, &message)) {}
 
   // Throws ConfigError about the value of `field`.
   void Require(bool condition, const std::string& field, const std::string& what) const {
@@ -146,6 +148,17 @@ Rig LoadRig(const std::string& path) {
   rig.imu_noise = ToImuNoise(message.imu());
   rig.gravity = message.gravity();
   return rig;
+}
+
+Camera LoadCamera(const std::string& path) {
+  const RigText text(path, true);
+  text.Require(text.message.has_camera(), "camera",
+               "this block is missing; see the commented files in config/");
+  std::vector<std::string> missing;
+  text.message.camera().FindInitializationErrors(&missing);
+  for (const std::string& field : missing)
+    text.Require(field == "time_offset_us", "camera." + field, "this key is missing");
+  return ToCamera(text);
 }
 
 std::string LoadRigName(const std::string& path) {

@@ -11,6 +11,10 @@ namespace evit {
 /// values, a rotation that is not one, a value out of range.
 Rig LoadRig(const std::string& path);
 
+/// The camera of a rig file, or of a file that holds nothing but its `camera` block (then time_offset_us,
+/// which is about an IMU, may be missing). Throws ConfigError as LoadRig does.
+Camera LoadCamera(const std::string& path);
+
 /// A rig file's name for people. Throws ConfigError as LoadRig does.
 std::string LoadRigName(const std::string& path);
 

@@ -89,25 +89,30 @@ void Flatten(const std::string& file, const std::string& parent, const Message& 
 
 }  // namespace
 
-std::vector<Setting> ParseTextFile(const std::string& path, Message* message) {
+std::vector<Setting> ParsePartialTextFile(const std::string& path, Message* message) {
   const std::string text = ReadFile(path);
   FirstError errors;
   TextFormat::ParseInfoTree places;
   TextFormat::Parser parser;
   parser.RecordErrorsTo(&errors);
   parser.WriteLocationsTo(&places);
-  parser.AllowPartialMessage(true);  // missing keys are named below, all at once
+  parser.AllowPartialMessage(true);  // missing keys are the caller's affair
   if (!parser.ParseFromString(text, message)) {
     const ParseFault fault = errors.fault().value_or(ParseFault{0, 0, "cannot be read"});
     throw ConfigError(path + ":" + Explain(message->GetDescriptor(), text, fault));
   }
+  std::vector<Setting> settings;
+  Flatten(path, "", *message, &places, &settings);
+  for (const Setting& setting : settings) CheckAllowed(setting);
+  return settings;
+}
+
+std::vector<Setting> ParseTextFile(const std::string& path, Message* message) {
+  std::vector<Setting> settings = ParsePartialTextFile(path, message);
   if (!message->IsInitialized()) {
     throw ConfigError(path + ": missing: " + message->InitializationErrorString() +
                       "; every one of these keys must be there, see the commented files in config/");
   }
-  std::vector<Setting> settings;
-  Flatten(path, "", *message, &places, &settings);
-  for (const Setting& setting : settings) CheckAllowed(setting);
   return settings;
 }
 

@@ -16,4 +16,7 @@ namespace evit {
 /// of what the schema's field options allow (file, line), required keys that are missing, all at once.
 std::vector<Setting> ParseTextFile(const std::string& path, google::protobuf::Message* message);
 
+/// The same without a look at what is missing.
+std::vector<Setting> ParsePartialTextFile(const std::string& path, google::protobuf::Message* message);
+
 }  // namespace evit

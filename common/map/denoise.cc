@@ -106,17 +106,14 @@ DenoiseSummary Denoise(const DenoiseSettings& settings, PointMap* map) {
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
                    sorted.end());
   const bool dense = static_cast<double>(sorted[sorted.size() / 2]) >= settings.min_usual_neighbours;
-  std::size_t kept = 0;
+  const auto vouched = [&](std::size_t i) { return n[i] >= settings.min_neighbours; };
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    const bool vouched = n[i] >= settings.min_neighbours;
-    if (!vouched && dense) {
-      ++summary.n_dropped;
-      continue;
-    }
-    summary.n_moved += vouched ? 1 : 0;
-    map->points[kept++] = vouched ? moved[i] : map->points[i];
+    if (!vouched(i)) continue;
+    map->points[i] = moved[i];
+    ++summary.n_moved;
   }
-  map->points.resize(kept);
+  if (dense) KeepIf(map, vouched);
+  summary.n_dropped = moved.size() - map->points.size();
   return summary;
 }
 

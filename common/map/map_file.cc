@@ -12,6 +12,7 @@
 
 #include "common/files/table_reader.h"
 #include "common/files/whole_file.h"
+#include "common/map/map_attributes.h"
 #include "common/map/map_formats.h"
 
 namespace evit {
@@ -112,8 +113,12 @@ LoadedMap LoadMap(const std::string& path, const MapChange& change) {
   points.reserve(cloud.size());
   for (const Eigen::Vector3d& p : cloud) points.push_back((change.T * (change.scale * p)).cast<float>());
   const std::size_t before = points.size();
-  points.erase(std::remove_if(points.begin(), points.end(), [](const auto& p) { return !p.allFinite(); }),
-               points.end());
+  loaded.map.attributes = ReadAttributes(bytes, before);
+  for (PointAttributes& a : loaded.map.attributes) {
+    a.direction = (change.T.q * a.direction.cast<double>()).cast<float>();
+    a.sigma = static_cast<float>(change.scale * a.sigma);
+  }
+  KeepIf(&loaded.map, [&](std::size_t k) { return points[k].allFinite(); });
   loaded.n_dropped = before - points.size();
   if (points.empty()) {
     throw std::runtime_error(
@@ -124,16 +129,21 @@ LoadedMap LoadMap(const std::string& path, const MapChange& change) {
   return loaded;
 }
 
-void WritePcd(const std::string& path, const PointMap& map) {
-  const std::string n = std::to_string(map.points.size());
+namespace {
+
+void WriteWhole(const std::string& path, const std::string& bytes) {
   WholeFile whole(path);
-  std::ofstream& file = whole.stream();
-  file << "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F "
-          "F\nCOUNT 1 1 1\n"
-       << "WIDTH " << n << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " << n << "\nDATA binary\n";
-  file.write(reinterpret_cast<const char*>(map.points.data()),
-             static_cast<std::streamsize>(map.points.size() * sizeof(Eigen::Vector3f)));
+  whole.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   whole.Commit();
+}
+
+}  // namespace
+
+void WritePcd(const std::string& path, const PointMap& map) { WriteWhole(path, PcdBytes(map)); }
+
+void WriteMap(const std::string& path, const PointMap& map) {
+  const bool ply = path.size() > 4 && path.compare(path.size() - 4, 4, ".ply") == 0;
+  WriteWhole(path, ply ? PlyBytes(map) : PcdBytes(map));
 }
 
 MapSummary Summarize(const PointMap& map) {

@@ -12,6 +12,11 @@ void AddImportCommand(CLI::App* app);
 void AddExportCommand(CLI::App* app);
 void AddFeedCommand(CLI::App* app);
 void AddMapCommand(CLI::App* app);
+/// build, check: subcommands of map.
+void AddMapBuild(CLI::App* map);
+void AddMapCheck(CLI::App* map);
+/// merge, crop, transform.
+void AddMapEdits(CLI::App* map);
 /// photometric, a subcommand of map.
 void AddMapPhotometric(CLI::App* map);
 void AddSimulateCommand(CLI::App* app);

@@ -1,45 +1,49 @@
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <stdexcept>
 #include <string>
-#include <tuple>
+#include <vector>
 
 #include "common/map/map_file.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
+#include "tools/mapping/map_edit.h"
 #include "tools/pictures/top_view.h"
 
 namespace evit::commands {
 namespace {
 
-// One point, the first, per cell of `size` metres.
-void Thin(PointMap* map, double size) {
-  std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> taken;
-  std::vector<Eigen::Vector3f> kept;
-  for (const Eigen::Vector3f& p : map->points) {
-    const auto cell = [&](float v) { return static_cast<std::int64_t>(std::floor(v / size)); };
-    if (taken.emplace(cell(p.x()), cell(p.y()), cell(p.z())).second) kept.push_back(p);
-  }
-  map->points.swap(kept);
+// Median of what is known of the points; the map has attributes.
+float MedianOf(const PointMap& map, float PointAttributes::*value) {
+  std::vector<float> values;
+  for (const PointAttributes& a : map.attributes) values.push_back(a.*value);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 void PrintSummary(const std::string& path, const LoadedMap& loaded, bool json) {
   const MapSummary s = Summarize(loaded.map);
   if (json) {
     const auto list = [](const Eigen::Vector3f& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
-    std::printf("%s\n", nlohmann::json{{"file", path},
-                                       {"format", loaded.format},
-                                       {"points", s.n_points},
-                                       {"dropped", loaded.n_dropped},
-                                       {"min_m", list(s.min)},
-                                       {"max_m", list(s.max)},
-                                       {"median_m", list(s.median)},
-                                       {"spacing_m", s.median_spacing}}
-                            .dump(2)
-                            .c_str());
+    nlohmann::json summary{{"file", path},
+                           {"format", loaded.format},
+                           {"points", s.n_points},
+                           {"dropped", loaded.n_dropped},
+                           {"min_m", list(s.min)},
+                           {"max_m", list(s.max)},
+                           {"median_m", list(s.median)},
+                           {"spacing_m", s.median_spacing}};
+    if (!loaded.map.attributes.empty()) {
+      summary["sigma_m"] = MedianOf(loaded.map, &PointAttributes::sigma);
+      summary["views"] = MedianOf(loaded.map, &PointAttributes::views);
+      summary["contrast"] = MedianOf(loaded.map, &PointAttributes::contrast);
+    }
+    std::printf("%s\n", summary.dump(2).c_str());
     return;
   }
   std::printf("%s (%s)\n  points   %zu (%zu not finite left out)\n", path.c_str(), loaded.format.c_str(),
@@ -48,13 +52,28 @@ void PrintSummary(const std::string& path, const LoadedMap& loaded, bool json) {
               s.min.y(), s.max.y(), s.min.z(), s.max.z());
   std::printf("  median   %.2f %.2f %.2f m\n  spacing  %.4f m (median distance to the nearest neighbour)\n",
               s.median.x(), s.median.y(), s.median.z(), s.median_spacing);
+  if (loaded.map.attributes.empty()) return;
+  std::printf("  known    direction, sigma %.4f m, %.0f views, contrast %.2f (medians)\n",
+              MedianOf(loaded.map, &PointAttributes::sigma), MedianOf(loaded.map, &PointAttributes::views),
+              MedianOf(loaded.map, &PointAttributes::contrast));
+}
+
+// From above, and from the side: along y, x to the right, z up.
+void WriteViews(const std::string& folder, const PointMap& map) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder + ": cannot be made: " + error.message());
+  pictures::WriteTopView(folder + "/top.png", map);
+  PointMap turned = map;
+  for (Eigen::Vector3f& p : turned.points) p = {p.x(), p.z(), -p.y()};
+  pictures::WriteTopView(folder + "/side.png", turned);
 }
 
 }  // namespace
 
 void AddMapCommand(CLI::App* app) {
   struct Options {
-    std::string in, out, transform, png;
+    std::string in, out, transform, png, views;
     double scale = 1, voxel = 0;
     bool json = false;
   };
@@ -75,23 +94,28 @@ void AddMapCommand(CLI::App* app) {
   convert->callback([o] {
     const SE3 T = o->transform.empty() ? SE3() : ParseTransform("--transform", o->transform);
     LoadedMap loaded = LoadMap(o->in, {o->scale, T});
-    if (o->voxel > 0) Thin(&loaded.map, o->voxel);
+    if (o->voxel > 0) mapping::Thin(o->voxel, &loaded.map);
     RequireMetres(Summarize(loaded.map), o->in);
     WritePcd(o->out, loaded.map);
     loaded.format = "PCD binary";
     PrintSummary(o->out, loaded, false);
   });
 
+  AddMapBuild(map);
+  AddMapCheck(map);
+  AddMapEdits(map);
   AddMapPhotometric(map);
 
   CLI::App* info = map->add_subcommand("info", "Points, bounds and spacing of a point cloud");
   info->add_option("FILE", o->in, "Point cloud to read")->required();
   info->add_flag("--json", o->json, "Machine-readable output");
   info->add_option("--png", o->png, "PNG to write: the map from above, coloured by height");
+  info->add_option("--out", o->views, "Folder for top.png and side.png (x to the right, z up)");
   info->footer("Example: evit map info map.pcd --png map.png");
   info->callback([o] {
     const LoadedMap loaded = LoadMap(o->in);
     if (!o->png.empty()) pictures::WriteTopView(o->png, loaded.map);
+    if (!o->views.empty()) WriteViews(o->views, loaded.map);
     PrintSummary(o->in, loaded, o->json);
     RequireMetres(Summarize(loaded.map), o->in);
   });

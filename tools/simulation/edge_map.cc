@@ -4,8 +4,8 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "common/parallel/parallel_for.h"
 #include "tools/simulation/image_map.h"
-#include "tools/simulation/parallel.h"
 #include "tools/simulation/random.h"
 
 namespace evit::simulation {

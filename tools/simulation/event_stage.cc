@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "common/parallel/parallel_for.h"
 #include "tools/simulation/noise_source.h"
-#include "tools/simulation/parallel.h"
 
 namespace evit::simulation {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/simulation/parallel.h"
+#include "common/parallel/parallel_for.h"
 
 namespace evit::simulation {
 namespace {

@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-#include "tools/simulation/parallel.h"
+#include "common/parallel/parallel_for.h"
 #include "tools/simulation/random.h"
 #include "tools/simulation/renderer.h"
 

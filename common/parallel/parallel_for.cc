@@ -1,4 +1,4 @@
-#include "tools/simulation/parallel.h"
+#include "common/parallel/parallel_for.h"
 
 #include <algorithm>
 #include <atomic>
@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace evit::simulation {
+namespace evit {
 
 void ParallelFor(int n, int threads, const std::function<void(int)>& work) {
   threads = std::min(threads, n);
@@ -34,4 +34,4 @@ void ParallelFor(int n, int threads, const std::function<void(int)>& work) {
   if (error) std::rethrow_exception(error);
 }
 
-}  // namespace evit::simulation
+}  // namespace evit

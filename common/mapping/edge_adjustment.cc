@@ -1,0 +1,223 @@
+#include "common/mapping/edge_adjustment.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "common/map/occlusion.h"
+#include "common/parallel/parallel_for.h"
+
+namespace evit {
+namespace {
+
+constexpr double kRad = M_PI / 180;
+constexpr double kKernelPx = 0.7;
+constexpr double kInlierPx = 1.0;
+constexpr int kBorderPx = 6;
+constexpr std::size_t kPointsPerPose = 2500;
+constexpr double kAlike = 5;  // points on one edge err together: so many of them are worth one
+
+// A point's distance to the edge it is seen as, across, and its derivative by the point in the camera frame.
+struct Sighting {
+  bool found = false;
+  double off = 0;  // pixels
+  Eigen::RowVector3d by_point = Eigen::RowVector3d::Zero();
+
+  double Weight() const { return 1 / (1 + off * off / (kKernelPx * kKernelPx)); }
+};
+
+// False where the point is not to be expected in the picture, or points at the camera.
+bool Look(const PinholeView& pinhole, const EdgeImage& edges, const MappedPoint& point,
+          const Eigen::Vector3d& p, double radius, Sighting* sighting) {
+  const Eigen::Matrix<double, 2, 3> jacobian = pinhole.Jacobian(p);
+  const Eigen::Vector2d tangent = jacobian * (pinhole.R * point.direction);
+  const double length = tangent.norm();
+  if (length < 0.25 * pinhole.camera.fx / p.z()) return false;
+  EdgeImage::Query query;
+  const Eigen::Vector2d pixel = pinhole.Pixel(p);
+  query.pixel = pixel.cast<float>();
+  query.normal = (Eigen::Vector2d(-tangent.y(), tangent.x()) / length).cast<float>();
+  query.radius = static_cast<float>(radius);
+  sighting->found = false;
+  if (const EdgePixel* match = edges.Match(query)) {
+    const Eigen::RowVector2d normal = match->normal.cast<double>().transpose();
+    sighting->found = true;
+    sighting->off = normal * (pixel - match->pixel.cast<double>());
+    sighting->by_point = normal * jacobian;
+  }
+  return true;
+}
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+// What the views say of one point.
+struct EdgeAdjustment::Sums {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // 1/m^2
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  int expected = 0, seen = 0;
+};
+
+std::vector<std::int32_t> EdgeAdjustment::Visible(const PosedEdges& view,
+                                                  const std::vector<MappedPoint>& points) const {
+  const PinholeView pinhole(view.T_map_camera, view.camera);
+  std::vector<ProjectedPoint> projected;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Eigen::Vector3d p = pinhole.InCamera(points[k].position);
+    if (p.z() < 0.05) continue;
+    const Eigen::Vector2d pixel = pinhole.Pixel(p);
+    if (!view.camera.Contains(pixel, kBorderPx)) continue;
+    projected.push_back({static_cast<std::int32_t>(k), pixel.cast<float>(), static_cast<float>(p.z())});
+  }
+  RemoveOccluded(view.camera, 0, &projected);
+  std::vector<std::int32_t> ids;
+  ids.reserve(projected.size());
+  for (const ProjectedPoint& p : projected) ids.push_back(p.id);
+  return ids;
+}
+
+void EdgeAdjustment::Collect(const PosedEdges& view, const std::vector<MappedPoint>& points, double radius,
+                             std::vector<Sums>* sums, double* squares, std::size_t* n) const {
+  const PinholeView pinhole(view.T_map_camera, view.camera);
+  for (const std::int32_t id : Visible(view, points)) {
+    Sighting sighting;
+    if (!Look(pinhole, view.edges, points[id], pinhole.InCamera(points[id].position), radius, &sighting))
+      continue;
+    Sums& s = (*sums)[id];
+    ++s.expected;
+    if (!sighting.found) continue;
+    const double w = sighting.Weight() / (options_.edge_sigma_px * options_.edge_sigma_px);
+    const Eigen::RowVector3d j = sighting.by_point * pinhole.R;
+    s.information += w * j.transpose() * j;
+    s.gradient += w * sighting.off * j.transpose();
+    if (std::abs(sighting.off) < kInlierPx) ++s.seen, *squares += sighting.off * sighting.off, ++*n;
+  }
+}
+
+void EdgeAdjustment::MovePose(const std::vector<MappedPoint>& points, double radius, const SE3& given,
+                              PosedEdges* view) const {
+  std::vector<std::int32_t> visible = Visible(*view, points);
+  // Every n-th will do for six unknowns.
+  const std::size_t stride = 1 + visible.size() / kPointsPerPose;
+  for (std::size_t k = 0; k * stride < visible.size(); ++k) visible[k] = visible[k * stride];
+  visible.resize((visible.size() + stride - 1) / stride);
+  for (int iteration = 0; iteration < 2; ++iteration) {
+    const PinholeView pinhole(view->T_map_camera, view->camera);
+    // A right-hand perturbation: a point of the camera frame moves by -R^T dp + p x dtheta.
+    Matrix6d information = Matrix6d::Zero();
+    Vector6d gradient = Vector6d::Zero();
+    for (const std::int32_t id : visible) {
+      const Eigen::Vector3d p = pinhole.InCamera(points[id].position);
+      Sighting sighting;
+      if (p.z() < 0.05 || !Look(pinhole, view->edges, points[id], p, radius, &sighting) || !sighting.found)
+        continue;
+      Eigen::Matrix<double, 1, 6> j;
+      j << -sighting.by_point * pinhole.R, sighting.by_point * Hat(p);
+      const double w = sighting.Weight() / (options_.edge_sigma_px * options_.edge_sigma_px);
+      information += w * j.transpose() * j;
+      gradient += w * sighting.off * j.transpose();
+    }
+    information /= kAlike;
+    gradient /= kAlike;
+    const double per_m2 = 1 / (options_.pose_sigma_m * options_.pose_sigma_m);
+    const double per_rad2 = 1 / std::pow(options_.pose_sigma_deg * kRad, 2);
+    Vector6d off;
+    off << view->T_map_camera.p - given.p, LogSO3(given.q.conjugate() * view->T_map_camera.q);
+    Vector6d prior;
+    prior << per_m2, per_m2, per_m2, per_rad2, per_rad2, per_rad2;
+    information.diagonal() += prior;
+    gradient += prior.cwiseProduct(off);
+    const Vector6d step = -information.ldlt().solve(gradient);
+    if (!step.allFinite()) return;
+    view->T_map_camera = view->T_map_camera.Plus(step);
+  }
+}
+
+AdjustmentSummary EdgeAdjustment::Run(std::vector<MappedPoint>* points) {
+  AdjustmentSummary summary;
+  std::vector<SE3> given;
+  for (const PosedEdges& view : *views_) given.push_back(view.T_map_camera);
+  const int n_views = static_cast<int>(views_->size());
+  std::vector<MappedPoint> measured = *points;
+  for (int round = 0; round <= options_.rounds; ++round) {
+    const bool last = round == options_.rounds;
+    const double radius = options_.first_radius_px + (options_.last_radius_px - options_.first_radius_px) *
+                                                         round / std::max(1, options_.rounds);
+    // In parts of fixed size, summed in their order: the same result whatever the number of threads.
+    const int parts = std::min(8, n_views);
+    std::vector<std::vector<Sums>> sums(parts, std::vector<Sums>(points->size()));
+    std::vector<double> squares(parts, 0);
+    std::vector<std::size_t> n(parts, 0);
+    ParallelFor(parts, threads_, [&](int part) {
+      for (int k = part; k < n_views; k += parts)
+        Collect((*views_)[k], *points, radius, &sums[part], &squares[part], &n[part]);
+    });
+    double square = 0;
+    std::size_t count = 0;
+    for (int part = 0; part < parts; ++part) square += squares[part], count += n[part];
+    const double rms = count > 0 ? std::sqrt(square / static_cast<double>(count)) : 0;
+    (round == 0 ? summary.rms_before_px : summary.rms_after_px) = rms;
+
+    std::vector<MappedPoint> kept, kept_measured;
+    for (std::size_t k = 0; k < points->size(); ++k) {
+      MappedPoint point = (*points)[k];
+      Sums total;
+      for (const auto& part : sums) {
+        total.information += part[k].information;
+        total.gradient += part[k].gradient;
+        total.expected += part[k].expected;
+        total.seen += part[k].seen;
+      }
+      point.views = total.seen;
+      point.seen = total.expected > 0 ? static_cast<double>(total.seen) / total.expected : 0;
+      // The first rounds are lenient: points and poses are still on their way.
+      const double strict = last ? 1 : 0.6;
+      if (total.seen < strict * options_.min_views || point.seen < strict * options_.min_share) continue;
+      if (options_.hold_sigmas > 0) {
+        const double sigma = options_.hold_sigmas * measured[k].sigma;
+        const double per_m2 = 1 / (sigma * sigma + 1e-8);
+        total.information.diagonal().array() += per_m2;
+        total.gradient += per_m2 * (point.position - measured[k].position);
+      }
+      // Along the line nothing is known: the point stays where it is.
+      const double held = total.information.trace() + 1;
+      const Eigen::Matrix3d information =
+          total.information + held * point.direction * point.direction.transpose();
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(information);
+      const double weakest = solver.eigenvalues()[0];
+      // Poses' errors do not average out over neighbouring views: a view in ten counts as independent.
+      point.sigma = weakest > 0 ? std::sqrt(std::max(1.0, std::min(10.0, total.seen / 3.0)) / weakest) : 1;
+      if (!last && weakest > 0) {
+        Eigen::Vector3d step = -solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() *
+                               solver.eigenvectors().transpose() * total.gradient;
+        step -= step.dot(point.direction) * point.direction;
+        const double limit = 0.03;  // m
+        if (step.norm() > limit) step *= limit / step.norm();
+        point.position += step;
+      }
+      kept.push_back(point);
+      kept_measured.push_back(measured[k]);
+    }
+    points->swap(kept);
+    measured.swap(kept_measured);
+    if (last || !options_.move_poses) continue;
+    ParallelFor(n_views, threads_, [&](int k) { MovePose(*points, radius, given[k], &(*views_)[k]); });
+  }
+  std::vector<double> moved, turned;
+  for (int k = 0; k < n_views; ++k) {
+    moved.push_back(((*views_)[k].T_map_camera.p - given[k].p).norm());
+    turned.push_back(AngularDistance((*views_)[k].T_map_camera.q, given[k].q) / kRad);
+  }
+  summary.moved_m = Median(moved);
+  summary.turned_deg = Median(turned);
+  return summary;
+}
+
+}  // namespace evit

@@ -1,0 +1,139 @@
+#include "common/mapping/line_thinning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+#include "common/parallel/parallel_for.h"
+
+namespace evit {
+namespace {
+
+using CellKey = std::uint64_t;
+
+// Three numbers of 20 bits and `extra` below 16.
+CellKey Key(const Eigen::Vector3i& cell, unsigned extra) {
+  CellKey key = extra;
+  for (int axis = 0; axis < 3; ++axis)
+    key = key << 20U | (static_cast<CellKey>(static_cast<std::uint32_t>(cell[axis])) & 0xFFFFFU);
+  return key;
+}
+
+Eigen::Vector3i CellOf(const Eigen::Vector3d& p, double size) {
+  return (p / size).array().floor().cast<int>();
+}
+
+// The axis that a direction is nearest to, and which way: 0..5.
+unsigned MainDirection(const Eigen::Vector3d& direction) {
+  int axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  return static_cast<unsigned>(2 * axis + (direction[axis] < 0 ? 1 : 0));
+}
+
+// Weighted mean of points that lie on one line.
+struct Mean {
+  double weight = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::Zero();
+  double views = 0, seen = 0, contrast = 0;
+
+  void Add(const MappedPoint& p, double w) {
+    weight += w;
+    position += w * p.position;
+    direction += w * p.direction;
+    views = std::max(views, p.views);
+    seen += w * p.seen;
+    contrast += w * p.contrast;
+  }
+};
+
+double WeightOf(const MappedPoint& p) { return 1 / (p.sigma * p.sigma + 1e-8); }
+
+}  // namespace
+
+std::vector<MappedPoint> ThinToLines(const std::vector<MappedPoint>& points,
+                                     const LineThinningOptions& options, int threads) {
+  // First to voxels: what is left of it is few enough to look at neighbours.
+  std::vector<MappedPoint> thin;
+  {
+    std::unordered_map<CellKey, std::size_t> places;
+    std::vector<Mean> means;
+    std::vector<double> best;  // sigma
+    for (const MappedPoint& p : points) {
+      const CellKey key = Key(CellOf(p.position, options.voxel_m), MainDirection(p.direction));
+      const auto [it, fresh] = places.emplace(key, means.size());
+      if (fresh) means.emplace_back(), best.push_back(p.sigma);
+      means[it->second].Add(p, WeightOf(p));
+      best[it->second] = std::min(best[it->second], p.sigma);
+    }
+    for (std::size_t k = 0; k < means.size(); ++k) {
+      const Mean& m = means[k];
+      MappedPoint p;
+      p.position = m.position / m.weight;
+      p.direction = m.direction.normalized();
+      // Views that share neighbours err together: a voxel is no better than a third of its best point's
+      // error.
+      p.sigma = std::max(1 / std::sqrt(m.weight), best[k] / 3);
+      p.views = m.views;
+      p.seen = m.seen / m.weight;
+      p.contrast = m.contrast / m.weight;
+      thin.push_back(p);
+    }
+  }
+  // Onto the line through the neighbours: only across it, so that lines keep their ends.
+  std::unordered_map<CellKey, std::vector<std::uint32_t>> cells;
+  for (std::size_t k = 0; k < thin.size(); ++k)
+    cells[Key(CellOf(thin[k].position, options.reach_m), 0)].push_back(static_cast<std::uint32_t>(k));
+  std::vector<MappedPoint> moved = thin;
+  constexpr int kBlock = 512;
+  const int blocks = static_cast<int>((thin.size() + kBlock - 1) / kBlock);
+  ParallelFor(blocks, threads, [&](int block) {
+    const std::size_t end = std::min(thin.size(), static_cast<std::size_t>(block + 1) * kBlock);
+    for (std::size_t k = static_cast<std::size_t>(block) * kBlock; k < end; ++k) {
+      const MappedPoint& own = thin[k];
+      const Eigen::Vector3i middle = CellOf(own.position, options.reach_m);
+      // No farther aside than what the errors allow: beside a line there may be another.
+      const double aside = std::clamp(2.5 * own.sigma, options.voxel_m, options.reach_m);
+      Eigen::Vector3d off_sum = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::Zero();
+      double weight = 0;
+      for (int dx = -1; dx <= 1; ++dx) {
+        for (int dy = -1; dy <= 1; ++dy) {
+          for (int dz = -1; dz <= 1; ++dz) {
+            const auto it = cells.find(Key(middle + Eigen::Vector3i(dx, dy, dz), 0));
+            if (it == cells.end()) continue;
+            for (const std::uint32_t j : it->second) {
+              const MappedPoint& other = thin[j];
+              if (other.direction.dot(own.direction) < 0.85) continue;
+              const Eigen::Vector3d off = other.position - own.position;
+              const double along = off.dot(own.direction);
+              const Eigen::Vector3d across = off - along * own.direction;
+              if (std::abs(along) > options.reach_m || across.norm() > aside) continue;
+              const double near = std::exp(-2 * along * along / (options.reach_m * options.reach_m));
+              const double w = near * WeightOf(other);
+              weight += w;
+              off_sum += w * across;
+              direction += w * other.direction;
+            }
+          }
+        }
+      }
+      moved[k].position = own.position + off_sum / weight;
+      moved[k].direction = direction.normalized();
+    }
+  });
+  // Neighbours that have become one.
+  std::unordered_map<CellKey, std::size_t> places;
+  std::vector<MappedPoint> lines;
+  for (const MappedPoint& p : moved) {
+    const CellKey key = Key(CellOf(p.position, options.voxel_m), MainDirection(p.direction));
+    const auto [it, fresh] = places.emplace(key, lines.size());
+    if (fresh) {
+      lines.push_back(p);
+    } else if (p.sigma < lines[it->second].sigma) {
+      lines[it->second] = p;
+    }
+  }
+  return lines;
+}
+
+}  // namespace evit

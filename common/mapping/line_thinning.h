@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "common/mapping/posed_edges.h"
+
+namespace evit {
+
+struct LineThinningOptions {
+  double voxel_m = 0.004;  // one point and direction each
+  double reach_m = 0.015;  // along and around a line: points that have a say in where it runs
+};
+
+/// Thins the bundle of points that many views leave along each edge to a line: points move onto the line
+/// through their neighbours of the same direction, weighted by their certainty, and then one for each voxel
+/// and main direction stays. In the order of the first point of each voxel.
+std::vector<MappedPoint> ThinToLines(const std::vector<MappedPoint>& points,
+                                     const LineThinningOptions& options, int threads);
+
+}  // namespace evit

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/mapping/depth_fusion.h"
+#include "common/mapping/edge_adjustment.h"
+#include "common/mapping/edge_stereo.h"
+#include "common/mapping/line_thinning.h"
+#include "common/mapping/view_choice.h"
+
+namespace evit {
+
+struct MapBuilderOptions {
+  ViewChoiceOptions choice;
+  EdgeStereoOptions stereo;
+  DepthFusionOptions fusion;
+  LineThinningOptions thinning;
+  EdgeAdjustmentOptions adjustment;
+  double typical_depth_m = 0;  // of the scene; 0: found from a few views
+  int threads = 2;
+};
+
+struct BuiltMap {
+  std::vector<MappedPoint> points;
+  std::vector<SE3> poses;  // T_map_camera of each view, adjusted
+  double typical_depth_m = 0;
+  int key_views = 0;
+  std::size_t measured = 0;   // depths
+  std::size_t confirmed = 0;  // of them, by other views
+  AdjustmentSummary adjustment;
+};
+
+/// How far it is, 0..1, and with what.
+using MapProgress = std::function<void(double share, const std::string& what)>;
+
+/// A semi-dense map from edges seen from known places: depth of the edges of key views (EdgeStereo), those
+/// that agree fused (FuseDepths), thinned to lines (ThinToLines), points and poses fitted to all views
+/// (EdgeAdjustment). Same views, same map, whatever the number of threads. Throws std::runtime_error with the
+/// remedy where there are too few views, they have hardly any edges, or the camera hardly moved. An empty map
+/// is possible: then nothing agreed.
+BuiltMap BuildMap(std::vector<PosedEdges> views, const MapBuilderOptions& options,
+                  const MapProgress& progress);
+
+/// The same from depths that a sensor measured at the edges of the views (`depths`: some or all views,
+/// ascending) instead of stereo: they hold the points at their distance while images say where edges run.
+BuiltMap BuildMapFromDepths(std::vector<PosedEdges> views, std::vector<KeyDepths> depths,
+                            const MapBuilderOptions& options, const MapProgress& progress);
+
+}  // namespace evit

@@ -1,0 +1,144 @@
+// `evit map build` and what changes maps, the program.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "common/evaluation/trajectory.h"
+#include "common/map/map_file.h"
+#include "tests/helpers/painted_scene.h"
+#include "tests/helpers/paths.h"
+
+namespace evit::commands {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+struct Outcome {
+  int code = -1;
+  std::string output;  // both streams
+};
+
+// Pictures of a painted wall with a camera file and poses, in a folder of the test's own.
+class MapBuildTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::path(testing::TempDir()) / "map_build";
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "pictures");
+    Camera camera;
+    camera.width = 200, camera.height = 150;
+    camera.fx = camera.fy = 150;
+    camera.cx = 100, camera.cy = 75;
+    std::ofstream(folder_ / "camera.textproto")
+        << "camera {\n  model: \"plumb_bob\"\n  width: 200\n  height: 150\n  fx: 150\n  fy: 150\n  cx: 100\n"
+           "  cy: 75\n  distortion: [0, 0, 0, 0]\n}\n";
+    const PaintedScene scene = PaintedScene::Wall();
+    Trajectory poses;
+    for (const SE3& pose : PaintedScene::Poses(16, 0.35)) {
+      const auto t = static_cast<Utime>(poses.size() + 1) * 100'000 + 1'600'000'000'000'000;
+      char name[40];
+      std::snprintf(name, sizeof name, "%02zu.png", poses.size());
+      cv::imwrite((folder_ / "pictures" / name).string(), scene.Picture(camera, pose));
+      poses.push_back({t, pose});
+    }
+    WriteTum((folder_ / "poses.tum").string(), poses);
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  static std::string File(const std::string& name) { return (folder_ / name).string(); }
+
+  static Outcome Map(const std::string& arguments) {
+    std::FILE* pipe = ::popen((test::ProgramPath("evit") + " map " + arguments + " 2>&1").c_str(), "r");
+    Outcome outcome;
+    if (pipe == nullptr) return outcome;
+    std::array<char, 4096> buffer{};
+    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
+      outcome.output.append(buffer.data(), n);
+    const int status = ::pclose(pipe);
+    if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
+    return outcome;
+  }
+
+  static Outcome Build(const std::string& pictures, const std::string& poses, const std::string& more = "") {
+    return Map("build --images " + File(pictures) + " --poses " + File(poses) + " --camera " +
+               File("camera.textproto") + " --out " + File("map.pcd") + " " + more);
+  }
+
+  static fs::path folder_;
+};
+
+fs::path MapBuildTest::folder_;
+
+TEST_F(MapBuildTest, MakesAMapThatLiesOnTheEdges) {
+  const Outcome outcome = Build("pictures", "poses.tum", "--poses-out " + File("fitted.tum"));
+  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("median sigma"));
+  const PointMap map = LoadMap(File("map.pcd")).map;
+  ASSERT_GT(map.points.size(), 500U);
+  EXPECT_EQ(map.attributes.size(), map.points.size());
+  const PaintedScene scene = PaintedScene::Wall();
+  std::vector<double> errors;
+  for (const Eigen::Vector3f& p : map.points) errors.push_back(scene.DistanceToEdge(p.cast<double>()));
+  std::sort(errors.begin(), errors.end());
+  EXPECT_LT(errors[errors.size() / 2], 0.005);
+  EXPECT_LT(errors[errors.size() * 9 / 10], 0.02);
+  EXPECT_EQ(ReadTum(File("fitted.tum")).size(), 16U);
+
+  // The other commands on the map just made.
+  EXPECT_EQ(Map("transform " + File("map.pcd") + " --transform '1 0 0 5 0 1 0 0 0 0 1 0 0 0 0 1' --out " +
+                File("moved.ply"))
+                .code,
+            0);
+  const PointMap moved = LoadMap(File("moved.ply")).map;
+  ASSERT_EQ(moved.points.size(), map.points.size());
+  EXPECT_NEAR(moved.points[3].x(), map.points[3].x() + 5, 1e-5);
+  EXPECT_EQ(Map("merge " + File("map.pcd") + " " + File("moved.ply") + " --out " + File("both.pcd")).code, 0);
+  EXPECT_GT(LoadMap(File("both.pcd")).map.points.size(), 1.5 * static_cast<double>(map.points.size()));
+  EXPECT_EQ(Map("crop " + File("both.pcd") + " --box 2.5:,:,: --out " + File("right.pcd")).code, 0);
+  for (const Eigen::Vector3f& p : LoadMap(File("right.pcd")).map.points) EXPECT_GE(p.x(), 2.5F);
+  EXPECT_EQ(Map("crop " + File("both.pcd") + " --box 50:,:,: --out " + File("none.pcd")).code, 1);
+  EXPECT_FALSE(fs::exists(File("none.pcd")));
+  const Outcome info = Map("info " + File("map.pcd") + " --out " + File("views"));
+  EXPECT_EQ(info.code, 0);
+  EXPECT_THAT(info.output, HasSubstr("sigma"));
+  EXPECT_TRUE(fs::exists(File("views/top.png")) && fs::exists(File("views/side.png")));
+}
+
+TEST_F(MapBuildTest, RefusesWhatMakesNoMapAndLeavesNothingBehind) {
+  fs::remove(File("map.pcd"));
+  fs::create_directories(File("capped"));
+  for (int k = 0; k < 16; ++k)
+    cv::imwrite(File("capped/" + std::to_string(100 + k) + ".png"), cv::Mat(150, 200, CV_8U, cv::Scalar(3)));
+  fs::create_directories(File("two"));
+  for (const char* name : {"00.png", "01.png"}) fs::copy_file(File("pictures/") + name, File("two/") + name);
+  std::ofstream(File("short.tum")) << "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n";
+  std::ofstream(File("other_clock.tum")) << "5 0 0 0 0 0 0 1\n6 0 0 0 0 0 0 1\n";
+  fs::create_directories(File("stamped"));
+  fs::copy_file(File("pictures/00.png"), File("stamped/1600000000.100000.png"));
+  const std::pair<Outcome, std::string> refused[] = {
+      {Build("capped", "poses.tum"), "lens was covered"},
+      {Build("pictures", "short.tum"), "16 pictures, but"},
+      {Build("two", "short.tum"), "needs three"},
+      {Build("stamped", "other_clock.tum"), "another clock"},
+      {Build("nowhere", "poses.tum"), "no such folder"},
+      {Build("pictures", "poses.tum", "--frames 20:30"), "only 16 pictures"},
+      {Build("pictures", "poses.tum", "--min-depth 5 --max-depth 2"), "--min-depth"},
+      {Map("build --out " + File("map.pcd")), "--images"},
+      {Map("build --images x --poses y --camera z --out map.txt"), ".pcd"}};
+  for (const auto& [outcome, words] : refused) {
+    EXPECT_NE(outcome.code, 0) << words;
+    EXPECT_THAT(outcome.output, HasSubstr(words));
+  }
+  EXPECT_FALSE(fs::exists(File("map.pcd")));
+  EXPECT_FALSE(fs::exists(File("map.pcd.part")));
+}
+
+}  // namespace
+}  // namespace evit::commands

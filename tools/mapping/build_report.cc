@@ -1,0 +1,100 @@
+#include "tools/mapping/build_report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+namespace evit::mapping {
+namespace {
+
+double MedianSigma(const BuiltMap& built) {
+  std::vector<double> sigmas;
+  for (const MappedPoint& p : built.points) sigmas.push_back(p.sigma);
+  if (sigmas.empty()) return 0;
+  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
+  std::nth_element(sigmas.begin(), middle, sigmas.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::string CannotWriteMap(const std::string& path) {
+  const std::filesystem::path file(path);
+  if (file.extension() != ".pcd" && file.extension() != ".ply")
+    return path + ": maps are written as PCD or PLY; give a name that ends in .pcd or .ply";
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder)) return folder.string() + ": no such folder; make it first";
+  return "";
+}
+
+std::vector<std::string> NotesOn(const FrameList& list, const ReadFrames& frames) {
+  std::vector<std::string> notes;
+  if (list.without_pose > 0) {
+    notes.push_back(std::to_string(list.without_pose) + " of " +
+                    std::to_string(list.without_pose + list.frames.size()) +
+                    " pictures have no pose (before, after or in a hole of the poses): left out");
+  }
+  if (frames.poor > 0) {
+    notes.push_back(std::to_string(frames.poor) + " of " + std::to_string(frames.read) +
+                    " pictures show few edges (blurred, dark, covered, or a bare wall): left out");
+  }
+  return notes;
+}
+
+std::string DoubtOf(const BuiltMap& built) {
+  char text[300] = "";
+  const double confirmed = built.measured > 0 ? static_cast<double>(built.confirmed) / built.measured : 0;
+  if (confirmed < 0.5) {
+    std::snprintf(
+        text, sizeof text,
+        "only %.0f %% of the depths agree between views: poses of another recording, clock or frame, a "
+        "calibration of another camera, or a scene that moves",
+        100 * confirmed);
+  } else if (built.adjustment.rms_after_px > 0.5) {
+    std::snprintf(text, sizeof text,
+                  "points lie %.2f px off the edges they were made from: look at the calibration, and at the "
+                  "poses' clock",
+                  built.adjustment.rms_after_px);
+  } else if (built.points.size() < 500) {
+    std::snprintf(text, sizeof text,
+                  "%zu points are few to track on: more pictures, more light, more texture, or a smaller "
+                  "--contrast",
+                  built.points.size());
+  }
+  return text;
+}
+
+PointMap MapOf(const BuiltMap& built) {
+  PointMap map;
+  for (const MappedPoint& p : built.points) {
+    map.points.push_back(p.position.cast<float>());
+    map.attributes.push_back({p.direction.cast<float>(), static_cast<float>(p.sigma),
+                              static_cast<float>(p.views), static_cast<float>(p.contrast)});
+  }
+  return map;
+}
+
+Trajectory PosesOf(const BuiltMap& built, const std::vector<Utime>& stamps) {
+  Trajectory poses;
+  for (std::size_t k = 0; k < built.poses.size(); ++k) poses.push_back({stamps.at(k), built.poses[k]});
+  return poses;
+}
+
+std::string SummaryOf(const std::string& path, const BuiltMap& built) {
+  char text[700];
+  std::snprintf(
+      text, sizeof text,
+      "%s\n"
+      "  points   %zu, median sigma %.1f mm, edges about %.1f m away\n"
+      "  views    %zu, of them %d key views: %zu depths of edges, %.0f %% confirmed by other views\n"
+      "  fit      points %.2f px (rms) off the edges in all views, %.2f before; poses moved by %.1f mm, "
+      "%.2f deg (median)\n",
+      path.c_str(), built.points.size(), 1e3 * MedianSigma(built), built.typical_depth_m, built.poses.size(),
+      built.key_views, built.measured,
+      built.measured > 0 ? 100.0 * static_cast<double>(built.confirmed) / built.measured : 0.0,
+      built.adjustment.rms_after_px, built.adjustment.rms_before_px, 1e3 * built.adjustment.moved_m,
+      built.adjustment.turned_deg);
+  return text;
+}
+
+}  // namespace evit::mapping

@@ -1,0 +1,163 @@
+#include "tools/mapping/check_findings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace evit::mapping {
+namespace {
+
+using Kind = Misplacement::Kind;
+
+constexpr double kDeg = 180 / M_PI;
+
+template <typename... Values>
+std::string Text(const char* format, Values... values) {
+  char text[400];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+std::string Remedy(const MapCheckInputs& inputs, const Misplacement& fit) {
+  const Eigen::Vector3d& v = fit.value;
+  switch (fit.kind) {
+    case Kind::kTime:
+      return Text("add %.0f to camera.time_offset_us of ", 1e6 * v.x()) + inputs.rig +
+             ", or let evit calibrate find it";
+    case Kind::kRotation:
+      return "T_body_camera of " + inputs.rig + " is off: evit calibrate finds it";
+    case Kind::kShift:
+      return Text(
+          "the map's frame is not that of the poses: evit map transform --transform \"1 0 0 %.4f 0 1 0 "
+          "%.4f 0 0 1 %.4f 0 0 0 1\"",
+          -v.x(), -v.y(), -v.z());
+    case Kind::kScale:
+      return Text("evit map transform --scale %.4f, and look where the poses' scale comes from",
+                  1 / (1 + v.x()));
+    case Kind::kFocal:
+      return "fx and fy of " + inputs.rig + " are another camera's, or another image size's";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string Describe(const Misplacement& fit) {
+  const Eigen::Vector3d& v = fit.value;
+  switch (fit.kind) {
+    case Kind::kTime:
+      return Text("events %.1f ms %s", 1e3 * std::abs(v.x()), v.x() < 0 ? "late" : "early");
+    case Kind::kRotation:
+      return Text("camera turned by %.2f deg (x %.2f, y %.2f, z %.2f)", kDeg * v.norm(), kDeg * v.x(),
+                  kDeg * v.y(), kDeg * v.z());
+    case Kind::kShift:
+      return Text("poses shifted by %.1f cm (%.3f %.3f %.3f m)", 100 * v.norm(), v.x(), v.y(), v.z());
+    case Kind::kScale:
+      return Text("poses %.1f %% too %s for the map", 100 * std::abs(v.x()), v.x() > 0 ? "small" : "large");
+    case Kind::kFocal:
+      return Text("focal length %.1f %% too %s", 100 * std::abs(v.x()), v.x() > 0 ? "short" : "long");
+  }
+  return "";
+}
+
+bool IsWorthAWord(const Misplacement& fit, double share_as_is) {
+  if (fit.point_share < share_as_is + std::max(0.03, 0.1 * share_as_is)) return false;
+  switch (fit.kind) {
+    case Kind::kTime:
+      return std::abs(fit.value.x()) > 0.003;
+    case Kind::kRotation:
+      return fit.value.norm() * kDeg > 0.2;
+    case Kind::kShift:
+      return fit.value.norm() > 0.008;
+    default:
+      return std::abs(fit.value.x()) > 0.01;
+  }
+}
+
+std::vector<std::string> Findings(const MapCheckInputs& inputs, const MapCheck& check) {
+  std::vector<std::string> findings;
+  std::vector<Misplacement> fits = check.fits;
+  std::stable_sort(fits.begin(), fits.end(), [](const Misplacement& a, const Misplacement& b) {
+    return a.point_share > b.point_share;
+  });
+  const bool misplaced = !fits.empty() && IsWorthAWord(fits.front(), check.point_share);
+  if (misplaced) {
+    const Misplacement& best = fits.front();
+    std::string text = Describe(best) +
+                       Text(": corrected, %.0f %% of the points lie on events instead of %.0f %%; ",
+                            100 * best.point_share, 100 * check.point_share) +
+                       Remedy(inputs, best);
+    for (std::size_t k = 1; k < fits.size(); ++k) {
+      // Nearly as good: which of them it is, these events cannot tell.
+      if (fits[k].point_share - check.point_share < 0.8 * (best.point_share - check.point_share)) break;
+      text += "; nearly as likely: " + Describe(fits[k]);
+    }
+    findings.push_back(text);
+  }
+  if (check.overlap.kappa() < 0.1 && (fits.empty() || fits.front().point_share < 0.3)) {
+    findings.push_back(Text("map and events have hardly anything to do with each other (%.0f %% of the "
+                            "points on events, %.0f %% by "
+                            "chance): another scene, another frame (are the poses the body's, not a "
+                            "marker's?) or unit: evit map "
+                            "info ",
+                            100 * check.overlap.point_share(), 100 * check.overlap.point_share_by_chance()) +
+                       inputs.map);
+  }
+  if (check.has_imu && check.tilt_deg > 2) {
+    findings.push_back(
+        Text("gravity is %.1f deg off -z of the map: the map is not upright (evit map transform), or the "
+             "poses are "
+             "not the IMU's (T_marker_body)",
+             check.tilt_deg));
+  }
+  const double missed = 1 - check.overlap.event_share();
+  if (!misplaced && missed > 0.5) {
+    findings.push_back(
+        Text("%.0f %% of the pixels that fire are not on the map: it has holes, or things move; more "
+             "pictures or a "
+             "smaller --contrast for evit map build, or evit map merge with another map",
+             100 * missed));
+  }
+  if (check.cells_seen > 0 && 2 * check.cells_silent > check.cells_seen) {
+    findings.push_back(
+        Text("%.0f %% of the map that was in view five times never fired: edges too weak for this camera (a "
+             "larger "
+             "--contrast for evit map build), or things that are gone (evit map crop)",
+             100.0 * static_cast<double>(check.cells_silent) / static_cast<double>(check.cells_seen)));
+  }
+  return findings;
+}
+
+std::string CheckText(const MapCheckInputs& inputs, const MapCheck& check) {
+  const MapEventOverlap& o = check.overlap;
+  double low = 1, high = 0;
+  for (const MapEventOverlap& m : check.moments) {
+    low = std::min(low, m.event_share());
+    high = std::max(high, m.event_share());
+  }
+  std::string text =
+      inputs.map + " on the events of " + inputs.log + "\n" +
+      Text("  points on events   %.1f %% within 2 px (%.1f %% by chance), of %.0f a view\n",
+           100 * o.point_share(), 100 * o.point_share_by_chance(),
+           static_cast<double>(o.points) / static_cast<double>(std::max<std::int64_t>(1, o.views))) +
+      Text(
+          "  events on the map  %.1f %% of the pixels that fired (%.1f %% by chance); view by view %.0f to "
+          "%.0f %%, "
+          "%lld views\n",
+          100 * o.event_share(), 100 * o.event_share_by_chance(), 100 * low, 100 * high,
+          static_cast<long long>(o.views)) +
+      Text("  mean offset        x %.2f, y %.2f px, from points to their events\n", o.mean_offset().x(),
+           o.mean_offset().y()) +
+      Text("  never fired        %zu of %zu cells of 5 cm that were in view five times (%zu in all)\n",
+           check.cells_silent, check.cells_seen, check.cells);
+  if (check.has_imu) text += Text("  gravity            %.1f deg off -z of the map\n", check.tilt_deg);
+  text +=
+      Text("  what would fit better (%.1f %% of the points on events as it is):\n", 100 * check.point_share);
+  for (const Misplacement& fit : check.fits)
+    text += Text("    %5.1f %%  ", 100 * fit.point_share) + Describe(fit) + "\n";
+  if (check.findings.empty()) text += "nothing looks wrong\n";
+  for (const std::string& finding : check.findings) text += "finding: " + finding + "\n";
+  return text;
+}
+
+}  // namespace evit::mapping

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/overlap/map_event_overlap.h"
+#include "common/overlap/misplacement.h"
+
+namespace evit::mapping {
+
+struct MapCheckInputs {
+  std::string log;    // LCM log with EVENTS; IMU where gravity is to be checked
+  std::string map;    // point cloud
+  std::string rig;    // rig file
+  std::string truth;  // TUM: body in the map frame
+};
+
+/// How a map lies on the events of a recording with known poses.
+struct MapCheck {
+  std::vector<MapView> views;            // with their events
+  std::vector<MapEventOverlap> moments;  // of each view
+  MapEventOverlap overlap;               // of all
+  double point_share = 0;                // as the fits count it
+  std::vector<Misplacement> fits;        // what would fit better, kind by kind
+  std::size_t cells = 0;                 // of 5 cm that hold points of the map,
+  std::size_t cells_seen = 0;            // were in view five times or more,
+  std::size_t cells_silent = 0;          // and never fired
+  double tilt_deg = 0;                   // of gravity against -z of the map
+  bool has_imu = false;
+  std::vector<std::string> findings;  // in words, with the command that mends it; empty: all is well
+};
+
+/// Compares. Throws std::runtime_error naming the file where one cannot be read, truth and log lie in
+/// different times, or the map is never in view.
+MapCheck CheckMap(const MapCheckInputs& inputs, const std::function<void(double)>& progress);
+
+/// Figures and findings for people.
+std::string CheckText(const MapCheckInputs& inputs, const MapCheck& check);
+
+/// The views that fit best, in the middle and worst, with events, points on events and points beside them, as
+/// best.png, median.png and worst.png in `folder` (made).
+void WriteCheckPictures(const std::string& folder, const std::string& rig, const MapCheck& check);
+
+}  // namespace evit::mapping
