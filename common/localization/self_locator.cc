@@ -13,6 +13,7 @@ namespace evit {
 namespace {
 
 constexpr Utime kPatience = 3'000'000;  // us: keyframes kept while an answer is awaited
+constexpr std::size_t kBacklog = 6;     // keyframes waiting, from which every other is left out
 constexpr Utime kRetry = 200'000;       // us between searches everywhere that found nothing worth following
 constexpr double kFits = 3.5;           // significance of a step that fits
 constexpr int kMaxWeak = 2;             // steps in a row that do not, before a hypothesis is dropped
@@ -83,6 +84,7 @@ void SelfLocator::AskNext() {
     if (question_) views_.pop_back();
     return;
   }
+  if (views_.size() > kBacklog) views_.pop_front();  // late: longer steps catch up
   const View view = std::move(views_.front());
   views_.pop_front();
   std::vector<SE3> predicted;
