@@ -14,7 +14,6 @@ namespace {
 
 constexpr StartRange kStart{0.1, 0.09, 4};     // a start pose typed in by hand; a lost tracker
 constexpr StartRange kFollow{0.01, 0.006, 3};  // constant velocity and gyro over some 10 ms
-constexpr std::size_t kSureFrames = 3;
 constexpr std::size_t kMaxFrames = 300;
 constexpr std::size_t kLongestDoubt = 100;  // frames of a chain that may be false, before it is given up
 constexpr int kPatience = 100;              // frames that do not fit before the start counts as failed
@@ -93,13 +92,12 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
   // A single frame finds some minimum nearly anywhere; several in a row that agree with gyro and constant
   // velocity do not.
   result.status = Result::Status::kUnsure;
-  if (frames_.size() < kSureFrames) return result;
-  result.status = Result::Status::kLocalized;
-  result.reason = "localising high-rate frames";
   if (!Found()) {
     if (frames_.size() >= kLongestDoubt) RejectFrame(&result);
     return result;
   }
+  result.status = Result::Status::kLocalized;
+  result.reason = "localising high-rate frames";
   // A chain that may be false moves no anchor: where it ends nothing would be left of where the body was.
   rejected_ = 0;
   anchor_.Start(fit.T_map_body, state_.velocity);

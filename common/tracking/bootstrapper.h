@@ -29,7 +29,7 @@ class Bootstrapper {
     enum class Status {
       kRejected,   // the map does not lie on this frame's events
       kHopeless,   // nor on those of many frames before it
-      kUnsure,     // it does, but a frame or two may do so by chance
+      kUnsure,     // it does, but some frames may do so by chance
       kLocalized,  // it does, and several frames in a row agree
       kAligned     // and velocities and biases are known: `window` is what the sliding window starts with
     };

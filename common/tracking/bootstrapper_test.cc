@@ -36,9 +36,11 @@ class BootstrapperTest : public ::testing::Test {
 TEST_F(BootstrapperTest, LocalisesFramesUntilVelocitiesAndBiasesAreKnown) {
   StartAt(source_.Truth(t_).Plus((Vector6d() << 0.02, -0.02, 0.01, 0.01, -0.01, 0.01).finished()));
   Bootstrapper::Result result = Step(source_.room);
-  EXPECT_EQ(result.status, Status::kUnsure);
-  EXPECT_EQ(Step(source_.room).status, Status::kUnsure);
-  EXPECT_EQ(Step(source_.room).status, Status::kLocalized);
+  for (int k = 1; k < options_.bootstrap.min_frames; ++k) {
+    EXPECT_EQ(result.status, Status::kUnsure);
+    result = Step(source_.room);
+  }
+  EXPECT_EQ(result.status, Status::kLocalized);
   EXPECT_LT((bootstrapper_.state().T_map_body.p - source_.Truth(t_).p).norm(), 0.01);
   for (int k = 0; k < 100 && result.status != Status::kAligned; ++k) {
     EXPECT_TRUE(result.window.empty());
