@@ -59,8 +59,10 @@ TEST_F(WindowOptimizerTest, RestartedWithoutThoseKeyframesItLooksWhereTheBodyMus
 
 TEST_F(WindowOptimizerTest, RestartedWhileBootstrappingItContinuesToo) {
   WithCheckpoint();
+  settings_.tracker.bootstrap.min_displacement_m = 0.1;
+  settings_.tracker.bootstrap.min_rotation_deg = 20;
   Start(false);
-  for (int k = 0; k < 5; ++k) {  // localises them, but does not track yet
+  for (int k = 0; k < 12; ++k) {  // localises them, but does not track yet
     Send(channels_.keyframe, Keyframe(1'000'000 + k * 10'000));
     Pump();
   }
