@@ -1,9 +1,10 @@
-// Recordings of other people's formats, as far as our own parsers read them (HDF5, SQLite and ROS 1 bags are
-// libraries'). The first byte chooses.
+// Recordings of other people's formats and live feeds, as far as our own parsers read them (HDF5, SQLite and
+// ROS 1 bags are libraries'). The first byte chooses.
 #include <functional>
 #include <stdexcept>
 
 #include "tests/fuzz/temporary_file.h"
+#include "tools/feed/feed_records.h"
 #include "tools/formats/aedat/aedat4_recording.h"
 #include "tools/formats/aedat/aedat_recording.h"
 #include "tools/formats/prophesee/raw_recording.h"
@@ -45,6 +46,16 @@ void ReadMessages(const std::uint8_t* data, std::size_t size, bool cdr) {
   }
 }
 
+// A live feed, in two pieces.
+void ReadRecords(const std::uint8_t* data, std::size_t size) {
+  evit::feed::RecordParser parser;
+  evit::EventArray events;
+  std::vector<evit::ImuSample> imu;
+  const std::size_t first = size > 0 ? data[0] % (size + 1) : 0;
+  parser.Parse(data, first, &events, &imu);
+  parser.Parse(data + first, size - first, &events, &imu);
+}
+
 void Read(int which, const std::uint8_t* data, std::size_t size) {
   const evit::fuzz::TemporaryFile file(data, size);
   DropCounts dropped;
@@ -71,8 +82,11 @@ void Read(int which, const std::uint8_t* data, std::size_t size) {
     case 6:
       ReadImuTable(file.path(), &dropped);
       return;
-    default:
+    case 7:
       ReadPoseTable(file.path(), &dropped);
+      return;
+    default:
+      ReadRecords(data, size);
   }
 }
 
@@ -81,7 +95,7 @@ void Read(int which, const std::uint8_t* data, std::size_t size) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   try {
-    Read(data[0] % 8, data + 1, size - 1);
+    Read(data[0] % 9, data + 1, size - 1);
   } catch (const std::runtime_error&) {
   }
   return 0;
