@@ -22,12 +22,11 @@ void PageAudience::Connected(ClientId client, const std::string& /*protocol*/) {
 }
 
 void PageAudience::Publish(const std::string& name, const std::string& text) {
-  const FramePtr frame = TextFrame(text);
-  newest_[name] = frame;
-  Replace(name, frame);
+  Replace(name, TextFrame(text));
 }
 
 void PageAudience::Replace(const std::string& name, const FramePtr& frame) {
+  newest_[name] = frame;
   for (auto& [client, viewer] : viewers_) {
     viewer.queue.Replace(name, frame);
     wake_(client);
@@ -74,14 +73,14 @@ FramePtr PageAudience::Next(ClientId client) {
 
 void PageAudience::OnPose(const body_pose_t& pose) {
   const std::int64_t now = HostTime();
-  if (viewers_.empty() || now - pose_sent_ < kPosePeriodUs) return;
+  if (now - pose_sent_ < kPosePeriodUs) return;
   pose_sent_ = now;
   Replace("pose", EncodePose(FrameKind::kPose, pose));
 }
 
 void PageAudience::OnTruth(const body_pose_t& pose) {
   const std::int64_t now = HostTime();
-  if (viewers_.empty() || now - truth_sent_ < kPosePeriodUs) return;
+  if (now - truth_sent_ < kPosePeriodUs) return;
   truth_sent_ = now;
   Replace("truth", EncodePose(FrameKind::kTruth, pose));
 }
@@ -92,6 +91,8 @@ void PageAudience::OnMode(const tracker_mode_t& mode) {
   mode_text_ = std::move(text);
   Publish("mode", mode_text_);
 }
+
+void PageAudience::OnPlaces(const places_t& places) { Replace("places", TextFrame(PlacesText(places))); }
 
 void PageAudience::OnWindow(const window_state_t& window, double latency_ms) {
   if (viewers_.empty()) return;

@@ -37,6 +37,7 @@ class PageAudience : public WebClients, public PipelineListener {
   void OnPose(const body_pose_t& pose) override;
   void OnTruth(const body_pose_t& pose) override;
   void OnMode(const tracker_mode_t& mode) override;
+  void OnPlaces(const places_t& places) override;
   void OnWindow(const window_state_t& window, double latency_ms) override;
   void OnPicture(const keyframe_t& keyframe, const std::vector<OverlayPoint>& points) override;
   bool WantsPicture() const override;
@@ -54,7 +55,7 @@ class PageAudience : public WebClients, public PipelineListener {
   Give give_;
   std::map<ClientId, Viewer> viewers_;
   const MapStore* map_ = nullptr;
-  std::map<std::string, FramePtr> newest_;       // of Publish(): the first that a new viewer gets
+  std::map<std::string, FramePtr> newest_;       // by name: the first that a new viewer gets
   std::int64_t pose_sent_ = 0, truth_sent_ = 0;  // us, host clock
   std::string mode_text_;
 };

@@ -44,6 +44,7 @@ PipelineWatch::PipelineWatch(Bus* bus, const Channels& channels) {
   Listen(bus, channels.keyframe, &PipelineWatch::TakeKeyframe);
   Listen(bus, channels.map_query, &PipelineWatch::TakeQuery);
   Listen(bus, channels.map_points, &PipelineWatch::TakeAnswer);
+  Listen(bus, channels.places, &PipelineWatch::TakePlaces);
 }
 
 void PipelineWatch::TakePose(body_pose_t& pose) {
@@ -77,6 +78,10 @@ void PipelineWatch::TakeQuery(map_query_t& query) {
 void PipelineWatch::TakeAnswer(map_points_t& answer) {
   map_.Add(answer);
   if (AnybodyWantsPicture()) visible_ = PointsOf(answer);
+}
+
+void PipelineWatch::TakePlaces(places_t& places) {
+  for (PipelineListener* listener : listeners_) listener->OnPlaces(places);
 }
 
 bool PipelineWatch::AnybodyWantsPicture() const {

@@ -26,6 +26,8 @@ class PipelineListener {
   virtual void OnPose(const body_pose_t& /*pose*/) {}
   virtual void OnTruth(const body_pose_t& /*pose*/) {}
   virtual void OnMode(const tracker_mode_t& /*mode*/) {}
+  /// Where the body may be, as map_server answers a tracker that does not know.
+  virtual void OnPlaces(const places_t& /*places*/) {}
   virtual void OnStatus(const service_status_t& /*status*/) {}
   /// `latency_ms`: from the instant it stands for until now; negative: not known.
   virtual void OnWindow(const window_state_t& /*window*/, double /*latency_ms*/) {}
@@ -74,6 +76,7 @@ class PipelineWatch {
   void TakeKeyframe(keyframe_t& keyframe);
   void TakeQuery(map_query_t& query);
   void TakeAnswer(map_points_t& answer);
+  void TakePlaces(places_t& places);
   bool AnybodyWantsPicture() const;
   void Show(const keyframe_t& keyframe, const std::vector<OverlayPoint>& points);
   std::vector<OverlayPoint> Overlay(const keyframe_t& keyframe, const window_state_t& window) const;

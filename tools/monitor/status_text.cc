@@ -1,5 +1,6 @@
 #include "tools/monitor/status_text.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -93,6 +94,17 @@ std::string ModeText(const tracker_mode_t& mode) {
                {"reason", mode.reason},
                {"image_speed", mode.image_speed},
                {"keyframe_stride", mode.keyframe_stride}});
+}
+
+std::string PlacesText(const places_t& places) {
+  constexpr std::size_t kMost = 32;
+  json list = json::array();
+  for (std::size_t i = 0; i < std::min(kMost, places.position.size()); ++i) {
+    list.push_back({{"position", places.position[i]},
+                    {"orientation", places.orientation[i]},
+                    {"significance", places.significance[i]}});
+  }
+  return Dump({{"type", "places"}, {"places", list}});
 }
 
 std::string AnswerText(bool ok, const std::string& text) {

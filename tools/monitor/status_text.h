@@ -22,6 +22,9 @@ std::string StatusText(const PipelineWatch* watch, const procman::Sheriff* sheri
 /// "type": "mode": what the tracker is doing and why.
 std::string ModeText(const tracker_mode_t& mode);
 
+/// "type": "places": candidates of a search for the start, best first, at most 32.
+std::string PlacesText(const places_t& places);
+
 /// "type": "answer": to an order.
 std::string AnswerText(bool ok, const std::string& text);
 

@@ -48,6 +48,16 @@ export class Body {
     this.frustum.material.color.set(css);
   }
 
+  setOpacity(opacity: number): void {
+    this.frustum.material.opacity = opacity;
+    this.frustum.material.transparent = opacity < 1;
+  }
+
+  dispose(): void {
+    this.frustum.geometry.dispose();
+    this.frustum.material.dispose();
+  }
+
   setCamera(camera: CameraInfo | null): void {
     const text = JSON.stringify(camera);
     if (text === this.drawn) return;

@@ -1,10 +1,11 @@
 import { readFrame, type FrameHandler } from "./frames";
-import type { Answer, Mode, Status, Text } from "./status";
+import type { Answer, Mode, Places, Status, Text } from "./status";
 
 export interface Handler extends FrameHandler {
   status(status: Status): void;
   mode(mode: Mode): void;
   answer(answer: Answer): void;
+  places(places: Places): void;
   connected(yes: boolean): void;
 }
 
@@ -49,6 +50,7 @@ export class Connection {
     const text = JSON.parse(data) as Text;
     if (text.type === "status") this.handler.status(text);
     else if (text.type === "mode") this.handler.mode(text);
-    else this.handler.answer(text);
+    else if (text.type === "places") this.handler.places(text);
+    else if (text.type === "answer") this.handler.answer(text);
   }
 }

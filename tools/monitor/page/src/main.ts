@@ -8,7 +8,7 @@ import { MapView, type View } from "./map_view";
 import { Plots } from "./plots";
 import { ReplayBar } from "./replay_bar";
 import { ServicesView } from "./services_view";
-import type { Answer, Mode, Status } from "./status";
+import type { Answer, Mode, Places, Status } from "./status";
 import { SurfaceView } from "./surface_view";
 
 const SIGNS = { tracking: "✓", bootstrapping: "…", lost: "✗", none: "" };
@@ -33,7 +33,7 @@ class Page implements Handler {
     element("clear-trail").onclick = () => this.mapView.clearTrail();
     const enlarge = element<HTMLSelectElement>("enlarge");
     enlarge.onchange = () => (this.mapView.enlarge = Number(enlarge.value));
-    const legend = [["accent", "estimate"], ["wait", "truth"], ["bad", "pose to give"]];
+    const legend = [["accent", "estimate"], ["wait", "truth"], ["bad", "pose to give"], ["soft", "candidate of a search"]];
     element("map-legend").innerHTML = legend
       .map(([name, text]) => `<span><i style="background:var(--${name})"></i>${text}</span>`)
       .join("");
@@ -85,7 +85,12 @@ class Page implements Handler {
 
   mode(mode: Mode): void {
     this.lastMode = mode;
+    if (mode.mode === "tracking") this.mapView.setPlaces([]);
     this.showMode();
+  }
+
+  places(places: Places): void {
+    this.mapView.setPlaces(this.lastMode?.mode === "tracking" ? [] : places.places);
   }
 
   answer(answer: Answer): void {

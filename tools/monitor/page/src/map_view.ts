@@ -4,8 +4,10 @@ import { Body, ellipsoidMatrix, mountOf } from "./body";
 import { color, isDark, onThemeChange } from "./dom";
 import type { MapPiece, Pose, WindowState } from "./frames";
 import { MapCloud } from "./map_cloud";
-import type { CameraInfo } from "./status";
+import type { CameraInfo, Places } from "./status";
 import { Trail } from "./trail";
+
+const SURE = 4.5; // standard deviations: chance stays below (lcmtypes/places_t.lcm)
 
 export type View = "orbit" | "follow" | "camera";
 
@@ -22,6 +24,7 @@ export class MapView {
   private readonly controls: OrbitControls;
   private readonly body = new Body(true);
   private readonly truth = new Body(false);
+  private candidates: Body[] = [];
   private readonly trail = new Trail();
   private readonly truthTrail = new Trail();
   private readonly ellipsoid: THREE.Mesh<THREE.SphereGeometry, THREE.MeshBasicMaterial>;
@@ -121,6 +124,24 @@ export class MapView {
   setWindow(state: WindowState): void {
     this.ellipsoid.matrix.copy(ellipsoidMatrix(state.covariance, state.position, 3 * this.enlarge));
     this.ellipsoid.visible = this.view !== "camera";
+    this.dirty = true;
+  }
+
+  // Candidates of a search for the start: the surer, the more visible.
+  setPlaces(places: Places["places"]): void {
+    for (const body of this.candidates) {
+      this.scene.remove(body.object);
+      body.dispose();
+    }
+    this.candidates = places.map((place) => {
+      const body = new Body(false);
+      body.setCamera(this.info);
+      body.setColor(color("soft"));
+      body.setOpacity(place.significance >= SURE ? 1 : 0.35);
+      body.place(place.position, place.orientation);
+      this.scene.add(body.object);
+      return body;
+    });
     this.dirty = true;
   }
 

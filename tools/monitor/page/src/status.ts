@@ -65,4 +65,9 @@ export interface Answer {
   text: string;
 }
 
-export type Text = Status | Mode | Answer;
+export interface Places {
+  type: "places";
+  places: { position: number[]; orientation: number[]; significance: number }[];
+}
+
+export type Text = Status | Mode | Answer | Places;
