@@ -145,19 +145,21 @@ Finding HotPixels(const EventCensus& e) {
   return Good("hot-pixels", figure);
 }
 
-// Pixels without an event in the midst of others that have many.
+// Pixels without an event among others that have many.
 Finding DeadPixels(const EventCensus& e) {
+  constexpr int kFewestBusy = 5;  // of 24 around
+  constexpr double kBusy = 12;    // events of each, mean: by chance none in 160,000 would then be silent
   const int w = e.width(), h = e.height();
   std::int64_t judged = 0, dead = 0;
   for (int y = 2; y + 2 < h; ++y) {
     for (int x = 2; x + 2 < w; ++x) {
-      std::int64_t around = 0, silent = 0;
+      std::int64_t around = 0, busy = 0;
       for (int v = -2; v <= 2; ++v)
         for (int u = -2; u <= 2; ++u) {
           const std::uint32_t n = e.by_pixel()[static_cast<std::size_t>((y + v) * w + x + u)];
-          if (u != 0 || v != 0) around += n, silent += n == 0 ? 1 : 0;
+          if (u != 0 || v != 0) around += n, busy += n > 0 ? 1 : 0;
         }
-      if (around < 24 * 15) continue;
+      if (busy < kFewestBusy || static_cast<double>(around) < kBusy * static_cast<double>(busy)) continue;
       ++judged;
       if (e.by_pixel()[static_cast<std::size_t>(y * w + x)] == 0) ++dead;
     }
