@@ -44,8 +44,9 @@ TEST(LossWatchTest, SaysWhatSendersDoWrong) {
   LossWatch watch;
   EXPECT_EQ(TextAfter(&watch, {{"EVENTS.two_senders", 2}, {"IMU.unnumbered", 0}}), "");
   EXPECT_NE(TextAfter(&watch, {{"EVENTS.two_senders", 3}}).find("two senders on EVENTS"), std::string::npos);
-  EXPECT_NE(TextAfter(&watch, {{"EVENTS.unnumbered", 9}, {"IMU.unnumbered", 9}}).find("EVENTS, IMU not numbered"),
-            std::string::npos);
+  EXPECT_NE(
+      TextAfter(&watch, {{"EVENTS.unnumbered", 9}, {"IMU.unnumbered", 9}}).find("EVENTS, IMU not numbered"),
+      std::string::npos);
 }
 
 }  // namespace

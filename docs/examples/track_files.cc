@@ -1,9 +1,10 @@
-// Poses from files, without LCM: events (t x y p: s, pixels, 0 or 1) and IMU samples (t gx gy gz ax ay az: s, rad/s,
-// m/s^2) as text, a map, and where the body is at the start.
+// Poses from files, without LCM: events (t x y p: s, pixels, 0 or 1) and IMU samples (t gx gy gz ax ay az: s,
+// rad/s, m/s^2) as text, a map, and where the body is at the start.
 //
 //   track_files events.txt imu.txt map.pcd "x y z qx qy qz qw" > trajectory.tum
 //
-// The rig is that of logs/ in the sources: put your own in. Links evit::tracking, evit::events and evit::evaluation.
+// The rig is that of logs/ in the sources: put your own in. Links evit::tracking, evit::events and
+// evit::evaluation.
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -19,7 +20,8 @@
 evit::Rig SampleRig() {
   evit::Rig rig;
   rig.camera.width = 320, rig.camera.height = 240;
-  rig.camera.fx = 163.663745, rig.camera.fy = 163.73092, rig.camera.cx = 152.238745, rig.camera.cy = 117.438105;
+  rig.camera.fx = 163.663745, rig.camera.fy = 163.73092, rig.camera.cx = 152.238745,
+  rig.camera.cy = 117.438105;
   rig.camera.distortion = {-0.031982, 0.041966, -0.000507, -0.001031, 0};
   Eigen::Matrix4d T_body_camera;
   T_body_camera << 0.0112035401714, 0.0218441028472, 0.999698612512, 0.129074645497,  //
@@ -38,8 +40,8 @@ int main(int argc, char** argv) {
   if (argc != 5) return std::fprintf(stderr, "usage: track_files EVENTS IMU MAP \"x y z qx qy qz qw\"\n"), 1;
   std::ifstream event_file(argv[1]), imu_file(argv[2]);
   evit::SE3 start;
-  std::istringstream(argv[4]) >> start.p.x() >> start.p.y() >> start.p.z() >> start.q.x() >> start.q.y() >> start.q.z() >>
-      start.q.w();
+  std::istringstream(argv[4]) >> start.p.x() >> start.p.y() >> start.p.z() >> start.q.x() >> start.q.y() >>
+      start.q.z() >> start.q.w();
   const evit::Rig rig = SampleRig();
   const evit::MapIndex map(evit::LoadMap(argv[3]).map);
   evit::KeyframeBuilder builder(rig, {}, /*lossless=*/true);
@@ -67,12 +69,14 @@ int main(int argc, char** argv) {
     tracker->AddVisible(seen.ids, points);
 
     const cv::Mat surface(keyframe->height, keyframe->width, CV_8UC1, keyframe->surface.data());
-    const evit::TrackerOutput out = tracker->Process(
-        {keyframe->utime, keyframe->seq, static_cast<int>(keyframe->n_events), surface, keyframe->imu, keyframe->imu_gap});
+    const evit::TrackerOutput out =
+        tracker->Process({keyframe->utime, keyframe->seq, static_cast<int>(keyframe->n_events), surface,
+                          keyframe->imu, keyframe->imu_gap});
     if (out.mode == evit::TrackerMode::kTracking && out.has_pose)
       std::printf("%s\n", evit::TumLine({keyframe->utime, out.nodes.back().state.T_map_body}).c_str());
     // Which keyframe comes next, and how fast its surface decays, depends on this.
-    builder.SetFeedbackFor(keyframe->seq, {static_cast<evit::TrackerFeedback::Mode>(out.mode), out.image_speed, 1});
+    builder.SetFeedbackFor(keyframe->seq,
+                           {static_cast<evit::TrackerFeedback::Mode>(out.mode), out.image_speed, 1});
   }
   return tracker->mode() == evit::TrackerMode::kTracking ? 0 : 2;
 }

@@ -8,7 +8,7 @@
 namespace evit {
 namespace {
 
-constexpr std::int64_t kEnough = 50;               // comparisons in a row, before a second clock is believed in
+constexpr std::int64_t kEnough = 50;  // comparisons in a row, before a second clock is believed in
 constexpr Utime kOneClock = 5 * kMicrosPerSecond;  // more apart: no delay explains it
 
 }  // namespace

@@ -25,7 +25,7 @@ class StreamCheck {
   std::vector<ImuSample> first_;  // until they have been looked at
   bool looked_ = false;
   std::string units_;
-  Utime event_ = 0, imu_ = 0;              // newest stamps, when both streams last moved
+  Utime event_ = 0, imu_ = 0;  // newest stamps, when both streams last moved
   Utime newest_imu_ = 0;
   std::int64_t apart_ = 0;  // how often in a row they were of two clocks
   bool imu_moved_ = false;  // since the last packet: where one stream stands still, stamps drift apart

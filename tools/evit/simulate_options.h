@@ -29,7 +29,8 @@ class SimulateOptions {
 
   simulation::SimulationSettings settings_;
   std::string rig_, frame_ = "auto", room_ = "furnished";
-  std::string seconds_, lamp_, dark_, tremor_, holes_, carry_;  // numbers with colons between; empty: not given
+  std::string seconds_, lamp_, dark_, tremor_, holes_,
+      carry_;  // numbers with colons between; empty: not given
 };
 
 }  // namespace evit::commands

@@ -10,12 +10,12 @@ namespace evit::formats {
 
 /// What was left out of one stream, and why.
 struct DropCounts {
-  std::int64_t late = 0;     // behind others by more than can be sorted, or a repeated sample or pose
-  std::int64_t outlier = 0;  // stamp far ahead of those that follow
-  std::int64_t invalid = 0;  // NaN, infinite or, of a pose, no rotation
-  std::int64_t outside = 0;  // pixel not on the sensor
+  std::int64_t late = 0;       // behind others by more than can be sorted, or a repeated sample or pose
+  std::int64_t outlier = 0;    // stamp far ahead of those that follow
+  std::int64_t invalid = 0;    // NaN, infinite or, of a pose, no rotation
+  std::int64_t outside = 0;    // pixel not on the sensor
   std::int64_t unstamped = 0;  // before the stream's first time stamp
-  std::int64_t sorted = 0;   // not dropped: moved to their place in time
+  std::int64_t sorted = 0;     // not dropped: moved to their place in time
 
   std::int64_t total() const { return late + outlier + invalid + outside + unstamped; }
   void Add(const TimeOrderCounts& order) {

@@ -14,7 +14,7 @@ namespace {
 using Field = EventColumns::Field;
 constexpr char kLayout[] = "t x y p";
 constexpr std::size_t kTelling = 10;  // rows: fewer fit any order
-constexpr double kSlowest = 0.01;  // s: events come more often than this
+constexpr double kSlowest = 0.01;     // s: events come more often than this
 
 std::string Name(const std::string& word) {  // "t[us]" and "T_us" to "t"
   std::string name;
