@@ -35,7 +35,8 @@ std::string Rows(const PointMap& map) {
     Row row{p.x(), p.y(), p.z()};
     if (attributed) {
       const PointAttributes& a = map.attributes[k];
-      row = {p.x(), p.y(), p.z(), a.direction.x(), a.direction.y(), a.direction.z(), a.sigma, a.views, a.contrast};
+      row = {p.x(),           p.y(),   p.z(),   a.direction.x(), a.direction.y(),
+             a.direction.z(), a.sigma, a.views, a.contrast};
     }
     rows.append(reinterpret_cast<const char*>(row.data()), (attributed ? kColumns : 3) * sizeof(float));
   }
@@ -47,10 +48,11 @@ std::string Rows(const PointMap& map) {
 std::vector<PointAttributes> ReadAttributes(const std::string& bytes, std::size_t n) {
   std::vector<PointAttributes> attributes;
   const std::string head = bytes.substr(0, 2048);
-  const std::string pcd_end = "\nDATA binary\n", ply_end = Columns(true, "property float ", "\n") + "end_header\n";
+  const std::string pcd_end = "\nDATA binary\n",
+                    ply_end = Columns(true, "property float ", "\n") + "end_header\n";
   std::size_t at = std::string::npos;
-  if (head.find("\nFIELDS" + Columns(true, " ", "") + "\nSIZE" + Each(true, "4") + "\nTYPE" + Each(true, "F") +
-                "\n") != std::string::npos) {
+  if (head.find("\nFIELDS" + Columns(true, " ", "") + "\nSIZE" + Each(true, "4") + "\nTYPE" +
+                Each(true, "F") + "\n") != std::string::npos) {
     at = head.find(pcd_end);
     if (at != std::string::npos) at += pcd_end.size();
   } else if (head.rfind("ply\nformat binary_little_endian", 0) == 0) {
@@ -70,15 +72,17 @@ std::vector<PointAttributes> ReadAttributes(const std::string& bytes, std::size_
 std::string PcdBytes(const PointMap& map) {
   const bool attributed = !map.attributes.empty();
   const std::string n = std::to_string(map.points.size());
-  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS" + Columns(attributed, " ", "") + "\nSIZE" +
-         Each(attributed, "4") + "\nTYPE" + Each(attributed, "F") + "\nCOUNT" + Each(attributed, "1") + "\nWIDTH " + n +
-         "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA binary\n" + Rows(map);
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS" + Columns(attributed, " ", "") +
+         "\nSIZE" + Each(attributed, "4") + "\nTYPE" + Each(attributed, "F") + "\nCOUNT" +
+         Each(attributed, "1") + "\nWIDTH " + n + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n +
+         "\nDATA binary\n" + Rows(map);
 }
 
 std::string PlyBytes(const PointMap& map) {
-  return "ply\nformat binary_little_endian 1.0\ncomment semi-dense map of evit: metres, z up\nelement vertex " +
-         std::to_string(map.points.size()) + "\n" + Columns(!map.attributes.empty(), "property float ", "\n") +
-         "end_header\n" + Rows(map);
+  return "ply\nformat binary_little_endian 1.0\ncomment semi-dense map of evit: metres, z up\nelement "
+         "vertex " +
+         std::to_string(map.points.size()) + "\n" +
+         Columns(!map.attributes.empty(), "property float ", "\n") + "end_header\n" + Rows(map);
 }
 
 }  // namespace evit
