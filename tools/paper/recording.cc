@@ -61,7 +61,7 @@ Recording SimulatedRecording(const paper::Paper& config, const paper::Sequence& 
                                  std::to_string(seed), "--seed", std::to_string(seed), "--rig", config.rig(),
                                  "--rgbd",
                                  // A third less to render than by default, and the same errors.
-                                 "--max-step-px", "1"};
+                                 "--max-step-px", "1", "--profile", config.profile()};
   std::string inputs = "rig " + HexText(HashOfFile(config.rig())) + "\n";
   const std::string recorded = motion.has_recorded() && !options.shared_data.empty()
                                    ? options.shared_data + "/" + motion.recorded()
@@ -78,7 +78,7 @@ Recording SimulatedRecording(const paper::Paper& config, const paper::Sequence& 
     r.source = "simulated, " + motion.builtin();
   }
   r.source += ", " + Text(options.seconds) + " s, " + std::to_string(options.seeds) +
-              (options.seeds == 1 ? " room" : " rooms");
+              (options.seeds == 1 ? " room" : " rooms") + ", profile " + config.profile();
   r.job.id = "simulate " + r.name;
   r.job.folder = folder;
   r.job.key = Joined(words) + "\n" + inputs + "program " + RecordingProgramId() + "\n";
