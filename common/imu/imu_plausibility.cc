@@ -86,7 +86,10 @@ std::string ImuComplaint(const std::vector<ImuSample>& samples) {
   };
   if (force < 0.5 * kStandardGravity && is(rate, kStandardGravity)) {
     return Sentence(
-        "gyro and accelerometer seem to be swapped: the gyro's mean has length %.2f, as gravity has", rate);
+        "gyro and accelerometer seem to be swapped: the gyro's mean has length %.2f, as gravity has; name "
+        "the columns in the file's first line, "
+        "e.g. t gx gy gz ax ay az",
+        rate);
   }
   if (is(force, 1)) {
     return Sentence(
