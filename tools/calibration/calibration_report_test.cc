@@ -97,6 +97,7 @@ TEST(RecordedMotion, ReadsTheImuOfALogWithoutWhatIsBeyondItsRange) {
       log.Write(imu.utime, k == 1 ? "OTHER" : "robot.IMU", bytes.data(), bytes.size());
     }
     log.Write(2'000'000, "robot.IMU", "rubbish", 7);
+    log.Write(2'000'000, "robot.EVENTS", "rubbish", 7);  // whose prefix is the recording's
     log.Close();
   }
   const std::vector<ImuSample> samples = ReadImu(path, Before().imu_noise);

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/helpers/paper.h"
 #include "tools/paper/jerk.h"
 #include "tools/run/report_writer.h"
@@ -12,13 +14,14 @@ namespace {
 
 constexpr Utime kBegin = 1'642'661'138'000'000;
 
-// 10 s along x at 1 m/s, a pose every 20 ms.
+// Along x at 1 m/s in a wide screw, as a straight line leaves an alignment's turn open; a pose every 20 ms.
 Trajectory Along(double seconds, const Eigen::Vector3d& offset, double drift = 0) {
   Trajectory poses;
   for (Utime t = 0; t <= static_cast<Utime>(1e6 * seconds); t += 20'000) {
     const double s = ToSeconds(t);
-    poses.push_back(
-        {kBegin + t, {Eigen::Quaterniond::Identity(), Eigen::Vector3d(s, drift * s, 1) + offset}});
+    poses.push_back({kBegin + t,
+                     {Eigen::Quaterniond::Identity(),
+                      Eigen::Vector3d(s, drift * s + 0.3 * std::sin(s), 1 + 0.3 * std::cos(s)) + offset}});
   }
   return poses;
 }

@@ -53,8 +53,11 @@ async function test() {
   assert.equal(first.content.frame_id, "map");
   const { x, y, z, w } = last.content.pose.orientation;
   assert.ok(Math.abs(Math.hypot(x, y, z, w) - 1) < 1e-6);
-  const map = messages.get("/map").at(-1).content;
-  assert.equal(map.data.length, 24060 * map.point_stride);
+  // The first one holds the points seen so far; all come once map_server's file has been found.
+  await until("the whole map", () => {
+    const map = messages.get("/map").at(-1).content;
+    return map.data.length === 24060 * map.point_stride;
+  });
   const image = messages.get("/surface").at(-1).content;
   assert.equal(image.data.length, image.height * image.step);
   assert.ok(messages.get("/diagnostics").some(({ content }) => content.name === "tracker"));
