@@ -16,7 +16,6 @@ double Small(Kind kind) { return kind == Kind::kTime ? 1e-3 : (kind == Kind::kSh
 double Large(Kind kind) {
   switch (kind) {
     case Kind::kTime:
-      return 0.02;
     case Kind::kRotation:
       return 0.02;
     case Kind::kShift:

@@ -25,7 +25,7 @@ cv::Mat Picture(const Rig& rig, const MapView& view) {
     if (!rig.camera.Project(T * p.cast<double>(), &pixel) || !rig.camera.Contains(pixel, 0)) continue;
     const cv::Point at(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
     picture.at<cv::Vec3b>(at) =
-        near.Find(view.fired, pixel, &offset) ? cv::Vec3b(0, 150, 0) : cv::Vec3b(40, 40, 230);
+        near.Find(view.fired, pixel, &offset) ? cv::Vec3b(178, 114, 0) : cv::Vec3b(0, 94, 213);
   }
   return picture;
 }

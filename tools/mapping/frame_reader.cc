@@ -46,6 +46,7 @@ ReadFrames ReadEdges(const FrameList& list, const Camera& camera, const FrameRea
     progress(++done / static_cast<double>(n));
   });
   std::vector<std::size_t> counts;
+  counts.reserve(edges.size());
   for (const auto& e : edges) counts.push_back(e.size());
   std::sort(counts.begin(), counts.end());
   const std::size_t least =

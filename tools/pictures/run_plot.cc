@@ -7,7 +7,8 @@ namespace evit::pictures {
 namespace {
 
 constexpr double kDegrees = 57.295779513082323;
-const cv::Scalar kColors[3] = {{60, 60, 210}, {70, 150, 50}, {190, 110, 30}};  // x red, y green, z blue
+const cv::Scalar kColors[3] = {
+    {0, 94, 213}, {115, 158, 0}, {178, 114, 0}};  // x orange, y green, z blue: safe for colour-blind eyes
 const cv::Scalar kTruth(170, 170, 170), kError(150, 50, 130);
 
 // Rotation relative to `reference` as a rotation vector, degrees: unlike Euler angles it does not jump.

@@ -49,6 +49,7 @@ Palette::Palette(const std::vector<cv::Mat>& samples) : nearest_(32768) {
     }
   }
   std::vector<std::pair<int, cv::Vec3b>> by_count;
+  by_count.reserve(counts.size());
   for (const auto& [key, value] : counts) by_count.push_back(value);
   std::stable_sort(by_count.begin(), by_count.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
