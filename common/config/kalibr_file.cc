@@ -169,7 +169,7 @@ Yaml ParseSimpleYaml(const std::string& text, const std::string& path) {
       continue;
     }
     const std::size_t colon = line.find(':');
-    if (colon == std::string::npos) {  // a list that goes on
+    if (colon == std::string::npos) {  // a list that continues
       if (current.empty())
         throw ConfigError(path + ":" + std::to_string(number) + ": expected \"key: value\"");
       add(line);

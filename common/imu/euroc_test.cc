@@ -119,7 +119,7 @@ TEST_F(EurocTest, BiasCorrectionMattersAndIsTheRepropagation) {
   for (std::size_t k = 100; k + 4 < truth_.size(); k += 50) {
     const Truth &a = truth_[k], &b = truth_[k + 4];
     const std::vector<ImuSample> samples = Between(a.t, b.t);
-    if (samples.empty()) continue;  // the ground truth goes on after the IMU log's end
+    if (samples.empty()) continue;  // the ground truth continues after the IMU log's end
     ++compared;
     Preintegration pre(samples, {}, noise);
     const Preintegration::Delta raw = pre.delta(), corrected = pre.Corrected(a.bias);

@@ -22,7 +22,7 @@ void ReadPly(const std::string& bytes, CloudPoints* points, std::string* format,
 /// row of one number (PTS's count) is passed over.
 void ReadXyz(const std::string& bytes, CloudPoints* points, std::string* format);
 
-/// The line that begins at `at`, which goes on behind its end: LF, CR LF or, where the file's first line ends
+/// The line that begins at `at`, which moves behind its end: LF, CR LF or, where the file's first line ends
 /// so, CR alone. False where the line does not end.
 bool HeaderLine(const std::string& bytes, std::size_t* at, std::string* line);
 

@@ -40,7 +40,7 @@ class StreamInbox {
   void End(const stream_end_t& end);
   /// All of a stream that has ended has been taken (real time: all that came).
   bool ended() const;
-  /// Another sender is at work on EVENTS or IMU (SequenceCounter): a lossless run cannot go on.
+  /// Another sender is at work on EVENTS or IMU (SequenceCounter): a lossless run cannot continue.
   bool two_senders() const { return events_.two_senders() || imu_.two_senders(); }
 
   std::int64_t epoch() const { return epoch_; }  // of the streams; -1: none heard

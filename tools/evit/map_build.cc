@@ -113,10 +113,12 @@ void AddMapBuild(CLI::App* map) {
                       "A:B, use only pictures A to B-1 of those that have a pose (or of --rgbd)");
   command->add_option("--max-frames", o->reader.max_frames, "Use every n-th picture where there are more")
       ->check(CLI::Range(3, 5000));
-  command
-      ->add_option("--contrast", o->reader.edges.sure_contrast,
-                   "Step of log intensity that an edge has somewhere; half of it will do along the edge")
-      ->check(CLI::Range(0.05, 2.0));
+  CLI::Option* contrast =
+      command
+          ->add_option("--contrast", o->reader.edges.sure_contrast,
+                       "Step of log intensity that an edge has somewhere; half of it will do along the edge; "
+                       "with --rgbd 0.25 by default")
+          ->check(CLI::Range(0.05, 2.0));
   command->add_option("--min-depth", o->build.stereo.min_depth_m, "Nearest edge, m")
       ->check(CLI::PositiveNumber);
   command->add_option("--max-depth", o->build.stereo.max_depth_m, "Farthest edge, m")
@@ -133,7 +135,9 @@ void AddMapBuild(CLI::App* map) {
       "map.pcd\n"
       "Depth comes from motion: the camera has to move sideways, some centimetres for each metre of "
       "distance.");
-  command->callback([o] {
+  command->callback([o, contrast] {
+    // Where depth is measured a weak edge is placed as well as a strong one.
+    if (!o->rgbd.empty() && contrast->count() == 0) o->reader.edges.sure_contrast = 0.25;
     if (!(o->build.stereo.min_depth_m < o->build.stereo.max_depth_m))
       throw std::runtime_error("--min-depth is not below --max-depth");
     o->reader.threads = o->build.threads;

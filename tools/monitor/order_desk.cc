@@ -67,7 +67,7 @@ std::string OrderDesk::Give(const PageOrder& order) {
       return "replay paused";
     case PageOrder::Kind::kResume:
       Control(replay_control_t::RESUME, 0, 1);
-      return "replay goes on";
+      return "replay continues";
     case PageOrder::Kind::kSeek:
       return Seek(order.seek_share);
     case PageOrder::Kind::kSpeed:

@@ -74,7 +74,7 @@ std::vector<std::uint8_t> CompressGif(const std::vector<std::uint8_t>& indices, 
   constexpr int kMostCodes = 4096;
   const int clear = 1 << bits, end = clear + 1;
   BitWriter writer;
-  // Where a known string (code) goes on with an index: [code][index], 0 nowhere.
+  // Where a known string (code) continues with an index: [code][index], 0 nowhere.
   std::vector<std::uint16_t> next(static_cast<std::size_t>(kMostCodes) << bits);
   int width = bits + 1, free = end + 1, current = -1;
   writer.Put(clear, width);

@@ -17,7 +17,7 @@ struct Playback {
   std::string log_prefix;                            // of the log's channels; empty: found
 };
 
-/// What a run goes on with, though it looks wrong.
+/// What a run continues with, though it looks wrong.
 struct Tolerance {
   bool truncated = false;  // a log that was cut off: what is whole of it is played
   bool any_imu = false;    // an IMU whose units or axes look wrong

@@ -23,7 +23,7 @@ class Readout {
   Readout(const ReadoutSettings& settings, std::uint64_t seed);
 
   /// Events of one step, sorted, none after `until` (us) and none before the step before: replaced by those
-  /// that leave the sensor, sorted. Bursts that go on after `until` come with later steps.
+  /// that leave the sensor, sorted. Bursts that continue after `until` come with later steps.
   void Pass(std::int32_t until, std::vector<EventSensor::Event>* events);
   std::size_t lost() const { return lost_; }
 

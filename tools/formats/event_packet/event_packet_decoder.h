@@ -20,7 +20,7 @@ struct EventPacket {
 };
 
 /// Decodes the packets of one topic, in their order, by the encodings that the message's own page describes:
-/// evt3, mono, libcaer, libcaer_cmp. Keeps state: evt3 goes on from packet to packet.
+/// evt3, mono, libcaer, libcaer_cmp. Keeps state: evt3 continues from packet to packet.
 class EventPacketDecoder {
  public:
   /// Appends the events with the time that the encoding gives. Throws std::runtime_error where the encoding

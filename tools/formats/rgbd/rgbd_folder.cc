@@ -32,7 +32,7 @@ std::vector<std::vector<double>> ReadRows(const std::string& path, std::size_t c
   return rows;
 }
 
-// The number whose digits begin at `at`, which goes on behind them, without leading zeros.
+// The number whose digits begin at `at`, which moves behind them, without leading zeros.
 std::string_view Digits(std::string_view name, std::size_t* at) {
   while (*at < name.size() && name[*at] == '0') ++*at;
   const std::size_t begin = *at;

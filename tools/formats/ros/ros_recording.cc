@@ -91,7 +91,7 @@ RosRecording::RosRecording(std::unique_ptr<MessageStore> store, const RosTopics&
   Scan();
 }
 
-// One pass for all that is wanted before the events: size and clock of the sensor, IMU and truth.
+// One pass for all that is needed before the events: size and clock of the sensor, IMU and truth.
 void RosRecording::Scan() {
   const bool packets = IsOneOf(events_.type, kEventPacketTypes);
   std::set<std::string> topics;

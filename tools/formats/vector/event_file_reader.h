@@ -12,8 +12,8 @@ namespace evit::formats {
 /// Reads what EventFileWriter describes, and what others write in its layout: numbers of any type as long as
 /// they have one meaning. Pixels may be floats without fractions; polarities 0/1, -1/1 or bool
 /// (PolarityCode); stamps integers in us after t_offset, or floats in s (or us, ns: by what they can be);
-/// t_offset may be missing (TUM-VIE), then it is 0. A 32-bit counter of us that starts again from 0 goes on.
-/// All functions throw std::runtime_error naming the file, the dataset and what is wrong.
+/// t_offset may be missing (TUM-VIE), then it is 0. A 32-bit counter of us that starts again from 0
+/// continues. All functions throw std::runtime_error naming the file, the dataset and what is wrong.
 class EventFileReader {
  public:
   explicit EventFileReader(const std::string& path);
