@@ -308,7 +308,7 @@ TEST_F(RunFilesTest, PlotsWithAndWithoutTruthOrPoses) {
     EXPECT_GT(image.cols, 1000);
     // Blue, the colour of the path and of z, shows where and only where there are poses.
     cv::Mat blue;
-    cv::inRange(image, cv::Scalar(190, 110, 30), cv::Scalar(190, 110, 30), blue);
+    cv::inRange(image, cv::Scalar(178, 114, 0), cv::Scalar(178, 114, 0), blue);
     EXPECT_EQ(cv::countNonZero(blue) > 500, !b.empty());
   }
 }
