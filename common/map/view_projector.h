@@ -23,6 +23,9 @@ class PointArrays {
   const float* x() const { return x_.data(); }  // m
   const float* y() const { return y_.data(); }
   const float* z() const { return z_.data(); }
+  float* mutable_x() { return x_.data(); }
+  float* mutable_y() { return y_.data(); }
+  float* mutable_z() { return z_.data(); }
 
  private:
   std::size_t n_ = 0;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "common/tracking/batch_samples.h"
 #include "common/tracking/image_patches.h"
-#include "common/tracking/plane_term.h"
 
 namespace evit {
 namespace {
@@ -19,7 +19,7 @@ struct Patch {
   int n = 0;
   double depth = 0;  // sum, m
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d curvature = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d curvature = Eigen::Matrix2d::Zero();  // its lower triangle
 };
 
 struct Valley {
@@ -30,19 +30,19 @@ struct Valley {
 
 std::vector<Patch> SumPatches(const AlignmentSettings& settings, const SurfaceField& field,
                               const AlignmentPoints& points, const SE3& T_map_body) {
-  const SE3 T_camera_map = settings.T_camera_body * T_map_body.Inverse();
+  const PlaneSamples samples =
+      SamplePlane(BatchAlignment(settings, field, 0, points, T_map_body), points.local());
   const ImagePatches places(settings.camera());
   std::vector<Patch> patches(places.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const Eigen::Vector3d p = T_camera_map * points.At(k);
-    Eigen::Vector2d pixel;
-    if (!settings.camera().Project(p, &pixel) || !settings.camera().Contains(pixel)) continue;
-    const PlaneTerm term = PlaneTermAt(settings, field, pixel);
-    Patch& patch = patches[places.At(pixel)];
+    if (samples.inside[k] == 0) continue;
+    Patch& patch = patches[places.At(samples.u[k], samples.v[k])];
     ++patch.n;
-    patch.depth += p.z();
-    patch.gradient += term.gradient;
-    patch.curvature += term.curvature;
+    patch.depth += samples.depth[k];
+    patch.gradient += Eigen::Vector2d(samples.gu[k], samples.gv[k]);
+    patch.curvature(0, 0) += samples.cuu[k];
+    patch.curvature(1, 0) += samples.cuv[k];
+    patch.curvature(1, 1) += samples.cvv[k];
   }
   return patches;
 }

@@ -21,6 +21,7 @@ class AlignmentPoints {
 
   std::size_t size() const { return local_.size(); }
   const PointArrays& local() const { return local_; }
+  PointArrays* mutable_local() { return &local_; }
   Eigen::Vector3d origin() const { return origin_.cast<double>(); }
   Eigen::Vector3d At(std::size_t k) const { return local_.At(k).cast<double>() + origin(); }
 

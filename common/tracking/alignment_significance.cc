@@ -3,19 +3,20 @@
 #include <cmath>
 #include <vector>
 
+#include "common/tracking/batch_samples.h"
 #include "common/tracking/image_patches.h"
 
 namespace evit {
 namespace {
 
-constexpr double kBeside = 10;      // pixels
-constexpr double kRounding = 0.01;  // grey levels: of a field without events, whose values are all the same
+constexpr float kBeside = 10;       // pixels
+constexpr float kRounding = 0.01F;  // grey levels: of a field without events, whose values are all the same
 
 class PatchSums {
  public:
   explicit PatchSums(const Camera& camera) : patches_(camera), sums_(patches_.size()) {}
 
-  void Add(const Eigen::Vector2d& at, double value) { sums_[patches_.At(at)] += value; }
+  void Add(float u, float v, double value) { sums_[patches_.At(u, v)] += value; }
   double Significance() const {
     double sum = 0, squares = 0;
     for (const double s : sums_) sum += s, squares += s * s;
@@ -27,42 +28,49 @@ class PatchSums {
   std::vector<double> sums_;
 };
 
-// How much better a point lies there than beside, grey levels; 0 where it is not well inside the image.
-double Depth(const SurfaceField& field, const Camera& camera, const Eigen::Vector2d& at) {
-  if (!camera.Contains(at, kBeside)) return 0;
-  const auto value = [&](double dx, double dy) {
-    return static_cast<double>(field.At(0, at.x() + dx, at.y() + dy).value);
-  };
-  const double depth =
-      0.25 * (value(kBeside, 0) + value(-kBeside, 0) + value(0, kBeside) + value(0, -kBeside)) - value(0, 0);
-  return std::abs(depth) > kRounding ? depth : 0;
-}
+// The points of a pose, and how much better each lies there than beside.
+class Depths {
+ public:
+  Depths(const AlignmentSettings& settings, const SurfaceField& field, const AlignmentPoints& points,
+         const SE3& T_map_body)
+      : right_(static_cast<float>(settings.camera().width - 1) - kBeside),
+        bottom_(static_cast<float>(settings.camera().height - 1) - kBeside),
+        samples_(
+            SampleBeside(BatchAlignment(settings, field, 0, points, T_map_body), points.local(), kBeside)) {}
+
+  bool inside(std::size_t k) const { return samples_.inside[k] != 0; }
+  float u(std::size_t k) const { return samples_.u[k]; }  // pixels
+  float v(std::size_t k) const { return samples_.v[k]; }
+  // Grey levels; 0 where it is not well inside the image.
+  float At(std::size_t k) const {
+    const bool well = inside(k) && u(k) >= kBeside && v(k) >= kBeside && u(k) <= right_ && v(k) <= bottom_;
+    const float depth = samples_.beside[k] - samples_.value[k];
+    return well && std::abs(depth) > kRounding ? depth : 0;
+  }
+
+ private:
+  float right_, bottom_;  // pixels: of what is well inside
+  BesideSamples samples_;
+};
 
 }  // namespace
 
 double AlignmentSignificance(const AlignmentSettings& settings, const SurfaceField& field,
                              const AlignmentPoints& points, const SE3& T_map_body) {
-  const Camera& camera = settings.camera();
-  const SE3 T_camera_map = settings.T_camera_body * T_map_body.Inverse();
-  PatchSums sums(camera);
+  const Depths depths(settings, field, points, T_map_body);
+  PatchSums sums(settings.camera());
   for (std::size_t k = 0; k < points.size(); ++k) {
-    Eigen::Vector2d at;
-    if (camera.Project(T_camera_map * points.At(k), &at) && camera.Contains(at, kBeside))
-      sums.Add(at, Depth(field, camera, at));
+    if (depths.inside(k)) sums.Add(depths.u(k), depths.v(k), depths.At(k));
   }
   return sums.Significance();
 }
 
 double SignificanceOver(const AlignmentSettings& settings, const SurfaceField& field,
                         const AlignmentPoints& points, const SE3& a, const SE3& b) {
-  const Camera& camera = settings.camera();
-  const SE3 T_a = settings.T_camera_body * a.Inverse(), T_b = settings.T_camera_body * b.Inverse();
-  PatchSums sums(camera);
+  const Depths at_a(settings, field, points, a), at_b(settings, field, points, b);
+  PatchSums sums(settings.camera());
   for (std::size_t k = 0; k < points.size(); ++k) {
-    Eigen::Vector2d at_a, at_b;
-    if (!camera.Project(T_a * points.At(k), &at_a) || !camera.Contains(at_a)) continue;
-    const double there = camera.Project(T_b * points.At(k), &at_b) ? Depth(field, camera, at_b) : 0;
-    sums.Add(at_a, Depth(field, camera, at_a) - there);
+    if (at_a.inside(k)) sums.Add(at_a.u(k), at_a.v(k), at_a.At(k) - at_b.At(k));
   }
   return sums.Significance();
 }

@@ -1,65 +1,12 @@
 #include "common/tracking/batch_alignment.h"
 
-#include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "common/tracking/alignment_lanes.h"
 
 namespace evit {
 namespace {
-
-struct BodyLanes {  // points in the body frame and on the image
-  alignas(64) float x[kLanes], y[kLanes], z[kLanes];
-  alignas(64) float mx[kLanes], my[kLanes], inverse_z[kLanes];
-  alignas(64) float dxx[kLanes], dxy[kLanes], dyy[kLanes];
-  alignas(64) float u[kLanes], v[kLanes];
-  alignas(64) float ahead[kLanes];  // 1, or 0 where the lens does not see the point
-};
-
-template <Camera::Model kModel>
-EVIT_ALWAYS_INLINE void ProjectLanes(const BatchAlignment& c, const float* x, const float* y, const float* z,
-                                     BodyLanes* out) {
-  const float* const B = c.R_bw;
-  const float* const C = c.R_cb;
-  for (int l = 0; l < kLanes; ++l) {
-    const float dx = x[l] - c.t_wb[0], dy = y[l] - c.t_wb[1], dz = z[l] - c.t_wb[2];
-    const float bx = B[0] * dx + B[1] * dy + B[2] * dz;
-    const float by = B[3] * dx + B[4] * dy + B[5] * dz;
-    const float bz = B[6] * dx + B[7] * dy + B[8] * dz;
-    const float px = C[0] * bx + C[1] * by + C[2] * bz + c.t_cb[0];
-    const float py = C[3] * bx + C[4] * by + C[5] * bz + c.t_cb[1];
-    const float pz = C[6] * bx + C[7] * by + C[8] * bz + c.t_cb[2];
-    // Masks are numbers, not booleans: the compiler makes vectors of these.
-    const float inverse = 1 / (pz > 1e-6F ? pz : 1e-6F);
-    const float mx = px * inverse, my = py * inverse;
-    const float ahead =
-        (pz > 1e-6F ? 1.0F : 0.0F) * (mx * mx + my * my <= c.camera.max_radius2 ? 1.0F : 0.0F);
-    const float sx = ahead * mx, sy = ahead * my;  // in range, so that they can become an index
-    const LaneDistortion d = DistortLane<kModel>(c.camera, sx, sy);
-    out->x[l] = bx, out->y[l] = by, out->z[l] = bz;
-    out->mx[l] = sx, out->my[l] = sy, out->inverse_z[l] = inverse;
-    out->dxx[l] = d.dxx, out->dxy[l] = d.dxy, out->dyy[l] = d.dyy;
-    out->u[l] = c.camera.fx * d.x + c.camera.cx;
-    out->v[l] = c.camera.fy * d.y + c.camera.cy;
-    out->ahead[l] = ahead;
-  }
-}
-
-// J: d(pixel coordinate)/d(position in the body frame, rotation), six arrays of lanes, from the coordinate's
-// derivative (d0, d1) over the normalised plane.
-EVIT_ALWAYS_INLINE void JacobianLanes(const BatchAlignment& c, const BodyLanes& p, const float* d0,
-                                      const float* d1, float focal, float (*J)[kLanes]) {
-  const float* const C = c.R_cb;
-  for (int l = 0; l < kLanes; ++l) {
-    const float scale = focal * p.inverse_z[l];
-    const float a = scale * d0[l], b = scale * d1[l], d = -(a * p.mx[l] + b * p.my[l]);
-    const float jx = -(a * C[0] + b * C[3] + d * C[6]);
-    const float jy = -(a * C[1] + b * C[4] + d * C[7]);
-    const float jz = -(a * C[2] + b * C[5] + d * C[8]);
-    J[0][l] = jx, J[1][l] = jy, J[2][l] = jz;
-    J[3][l] = p.y[l] * jz - p.z[l] * jy;  // p_body x j
-    J[4][l] = p.z[l] * jx - p.x[l] * jz;
-    J[5][l] = p.x[l] * jy - p.y[l] * jx;
-  }
-}
 
 // Over the image plane, weighted: gradient (g0, g1), and M = slope * (g g^T + r [H]+), H's negative
 // eigenvalues left out.
@@ -134,34 +81,6 @@ EVIT_ALWAYS_INLINE void AddAll(const BatchAlignment& c, const PointArrays& point
   }
 }
 
-template <Camera::Model kModel>
-EVIT_ALWAYS_INLINE void Beside(const BatchAlignment& c, const PointArrays& points, float width, float height,
-                               float shift, float* value, float* beside, std::int32_t* inside) {
-  const auto n = static_cast<int>(points.size());
-  for (int k = 0; k < n; k += kLanes) {
-    BodyLanes p;
-    FieldLanes f;
-    ProjectLanes<kModel>(c, points.x() + k, points.y() + k, points.z() + k, &p);
-    SampleLanes<false>(c.field, p.u, p.v, &f);
-    alignas(64) float sum[kLanes] = {};
-    for (int l = 0; l < kLanes; ++l) {
-      value[k + l] = f.value[l];
-      inside[k + l] = static_cast<int>(p.u[l] >= 0) & static_cast<int>(p.v[l] >= 0) &
-                      static_cast<int>(p.u[l] <= width - 1) & static_cast<int>(p.v[l] <= height - 1) &
-                      static_cast<int>(p.ahead[l] > 0);
-    }
-    for (int side = 0; side < 4; ++side) {
-      const float du = side == 0 ? shift : side == 1 ? -shift : 0;
-      const float dv = side == 2 ? shift : side == 3 ? -shift : 0;
-      alignas(64) float u[kLanes], v[kLanes];
-      for (int l = 0; l < kLanes; ++l) u[l] = p.u[l] + du, v[l] = p.v[l] + dv;
-      SampleLanes<false>(c.field, u, v, &f);
-      for (int l = 0; l < kLanes; ++l) sum[l] += 0.25F * f.value[l];
-    }
-    for (int l = 0; l < kLanes; ++l) beside[k + l] = sum[l];
-  }
-}
-
 constexpr auto kPlumbBob = Camera::Model::kPlumbBob;
 constexpr auto kEquidistant = Camera::Model::kEquidistant;
 
@@ -177,15 +96,6 @@ EVIT_MULTIVERSION void EquidistantTerm(const BatchAlignment& c, const PointArray
 EVIT_MULTIVERSION void EquidistantCost(const BatchAlignment& c, const PointArrays& p, AlignmentSums* sums) {
   AddAll<kEquidistant, false>(c, p, sums);
 }
-EVIT_MULTIVERSION void PlumbBobBeside(const BatchAlignment& c, const PointArrays& p, float w, float h,
-                                      float s, float* value, float* beside, std::int32_t* inside) {
-  Beside<kPlumbBob>(c, p, w, h, s, value, beside, inside);
-}
-EVIT_MULTIVERSION void EquidistantBeside(const BatchAlignment& c, const PointArrays& p, float w, float h,
-                                         float s, float* value, float* beside, std::int32_t* inside) {
-  Beside<kEquidistant>(c, p, w, h, s, value, beside, inside);
-}
-
 void Copy(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, float* to_R, float* to_t) {
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) to_R[3 * r + c] = static_cast<float>(R(r, c));
@@ -195,16 +105,21 @@ void Copy(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, float* to_R, float
 
 }  // namespace
 
-BatchAlignment::BatchAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
-                               const AlignmentPoints& points, const SE3& T_map_body)
+BatchView::BatchView(const AlignmentSettings& settings, const AlignmentPoints& points, const SE3& T_map_body)
     : camera(settings.lane_camera()),
       fisheye(settings.camera().model == kEquidistant),
-      field(field.Lanes(level)),
-      inverse_sigma(static_cast<float>(1 / settings.image_sigma)),
-      kernel(settings.kernel) {
+      width(static_cast<float>(settings.camera().width)),
+      height(static_cast<float>(settings.camera().height)) {
   Copy(T_map_body.R().transpose(), T_map_body.p - points.origin(), R_bw, t_wb);
   Copy(settings.T_camera_body.R(), settings.T_camera_body.p, R_cb, t_cb);
 }
+
+BatchAlignment::BatchAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
+                               const AlignmentPoints& points, const SE3& T_map_body)
+    : BatchView(settings, points, T_map_body),
+      field(field.Lanes(level)),
+      inverse_sigma(static_cast<float>(1 / settings.image_sigma)),
+      kernel(settings.kernel) {}
 
 void SumAlignment(const BatchAlignment& batch, const PointArrays& points, bool derivatives,
                   AlignmentSums* sums) {
@@ -215,10 +130,16 @@ void SumAlignment(const BatchAlignment& batch, const PointArrays& points, bool d
   }
 }
 
-void SampleBeside(const BatchAlignment& batch, const PointArrays& points, float width, float height,
-                  float shift, float* value, float* beside, std::int32_t* inside) {
-  (batch.fisheye ? EquidistantBeside : PlumbBobBeside)(batch, points, width, height, shift, value, beside,
-                                                       inside);
+double SumLanes(const float* lanes) { return std::accumulate(lanes, lanes + kLanes, 0.0); }
+
+Matrix6d HessianOfLanes(const float (*upper)[kLanes], const SE3& T_map_body) {
+  Matrix6d hessian;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) hessian(i, j) = hessian(j, i) = SumLanes(*upper++);
+  }
+  Matrix6d turn = Matrix6d::Identity();
+  turn.topLeftCorner<3, 3>() = T_map_body.R();
+  return turn * hessian * turn.transpose();
 }
 
 }  // namespace evit

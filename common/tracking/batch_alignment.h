@@ -7,18 +7,25 @@
 
 namespace evit {
 
-/// The event alignment term for a whole batch of points, a block of lanes at a time: what each block needs to
-/// know. The same written plainly is reference_alignment.h.
-struct BatchAlignment {
-  BatchAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
-                 const AlignmentPoints& points, const SE3& T_map_body);
+/// From where a batch of points is seen, made ready for lanes.
+struct BatchView {
+  BatchView(const AlignmentSettings& settings, const AlignmentPoints& points, const SE3& T_map_body);
 
   LaneCamera camera;
   bool fisheye;
-  LaneField field;
+  float width, height;     // pixels
   float R_bw[9], t_wb[3];  // body from map (row-major); body in the map, relative to the points' origin
   float R_cb[9], t_cb[3];  // camera from body
-  float inverse_sigma;     // 1 / grey levels
+};
+
+/// The event alignment term for a whole batch of points, a block of lanes at a time: what each block needs to
+/// know. The same written plainly is reference_alignment.h.
+struct BatchAlignment : BatchView {
+  BatchAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
+                 const AlignmentPoints& points, const SE3& T_map_body);
+
+  LaneField field;
+  float inverse_sigma;  // 1 / grey levels
   LaneKernel kernel;
 };
 
@@ -33,9 +40,9 @@ struct AlignmentSums {
 void SumAlignment(const BatchAlignment& batch, const PointArrays& points, bool derivatives,
                   AlignmentSums* sums);
 
-/// Values under points, and the mean of the four places `shift` pixels beside each. `inside`: 0 where a point
-/// is not in the image. Arrays of points.size() rounded up to whole blocks.
-void SampleBeside(const BatchAlignment& batch, const PointArrays& points, float width, float height,
-                  float shift, float* value, float* beside, std::int32_t* inside);
+/// Sum over the lanes, in their order.
+double SumLanes(const float* lanes);
+/// A Hessian over the tangent (dp, dtheta) of T_map_body from the upper triangle of such sums.
+Matrix6d HessianOfLanes(const float (*upper)[kLanes], const SE3& T_map_body);
 
 }  // namespace evit

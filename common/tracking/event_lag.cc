@@ -1,29 +1,73 @@
 #include "common/tracking/event_lag.h"
 
+#include <cmath>
+
+#include "common/tracking/alignment_lanes.h"
+
 namespace evit {
 namespace {
 
-constexpr double kSlow =
+constexpr float kSlow =
     5;  // pixels/s: well below it the direction of motion means nothing, and neither does a lag
+
+struct LagBatch : BatchView {
+  LagBatch(const BatchView& view, const SE3& T_map_body, const Eigen::Vector3d& velocity,
+           const Eigen::Vector3d& rate, double lag_px)
+      : BatchView(view), lag(static_cast<float>(lag_px)) {
+    const Eigen::Vector3d v_body = T_map_body.R().transpose() * velocity;
+    for (int k = 0; k < 3; ++k) {
+      v[k] = static_cast<float>(v_body[k]);
+      w[k] = static_cast<float>(rate[k]);
+    }
+  }
+  float v[3], w[3];  // m/s, rad/s: of the body, in its frame
+  float lag;         // pixels
+};
+
+template <Camera::Model kModel>
+EVIT_ALWAYS_INLINE void MoveBack(const LagBatch& c, PointArrays* points) {
+  const float* const B = c.R_bw;
+  const float* const C = c.R_cb;
+  for (std::size_t k = 0; k < points->size(); k += kLanes) {
+    float* const x = points->mutable_x() + k;
+    float* const y = points->mutable_y() + k;
+    float* const z = points->mutable_z() + k;
+    BodyLanes p;
+    ProjectLanes<kModel>(c, x, y, z, &p);
+    for (int l = 0; l < kLanes; ++l) {
+      // m/s: of a fixed point seen from the body, in its frame and in the camera's; then pixels/s.
+      const float bx = c.w[2] * p.y[l] - c.w[1] * p.z[l] - c.v[0];
+      const float by = c.w[0] * p.z[l] - c.w[2] * p.x[l] - c.v[1];
+      const float bz = c.w[1] * p.x[l] - c.w[0] * p.y[l] - c.v[2];
+      const float cx = C[0] * bx + C[1] * by + C[2] * bz;
+      const float cy = C[3] * bx + C[4] * by + C[5] * bz;
+      const float cz = C[6] * bx + C[7] * by + C[8] * bz;
+      const float mx = (cx - p.mx[l] * cz) * p.inverse_z[l], my = (cy - p.my[l] * cz) * p.inverse_z[l];
+      const float u = c.camera.fx * (p.dxx[l] * mx + p.dxy[l] * my);
+      const float v = c.camera.fy * (p.dxy[l] * mx + p.dyy[l] * my);
+      const float delay = p.ahead[l] * c.lag / (std::sqrt(u * u + v * v) + kSlow);  // s
+      x[l] -= delay * (B[0] * bx + B[3] * by + B[6] * bz);
+      y[l] -= delay * (B[1] * bx + B[4] * by + B[7] * bz);
+      z[l] -= delay * (B[2] * bx + B[5] * by + B[8] * bz);
+    }
+  }
+}
+
+EVIT_MULTIVERSION void PlumbBobMoveBack(const LagBatch& c, PointArrays* points) {
+  MoveBack<Camera::Model::kPlumbBob>(c, points);
+}
+EVIT_MULTIVERSION void EquidistantMoveBack(const LagBatch& c, PointArrays* points) {
+  MoveBack<Camera::Model::kEquidistant>(c, points);
+}
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> CompensateEventLag(const AlignmentSettings& settings,
-                                                std::vector<Eigen::Vector3f> points, const SE3& T_map_body,
-                                                const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate,
-                                                double lag_px) {
+AlignmentPoints CompensateEventLag(const AlignmentSettings& settings, AlignmentPoints points,
+                                   const SE3& T_map_body, const Eigen::Vector3d& velocity,
+                                   const Eigen::Vector3d& rate, double lag_px) {
   if (lag_px == 0) return points;
-  const Eigen::Matrix3d R_wb = T_map_body.R(), R_bw = R_wb.transpose(), R_cb = settings.T_camera_body.R();
-  const Eigen::Vector3d v_body = R_bw * velocity;
-  for (Eigen::Vector3f& point : points) {
-    const Eigen::Vector3d p_body = R_bw * (point.cast<double>() - T_map_body.p);
-    const Eigen::Vector3d flow = -v_body - rate.cross(p_body);  // m/s, of a fixed point seen from the body
-    Eigen::Vector2d pixel;
-    Eigen::Matrix<double, 2, 3> jacobian;
-    if (!settings.camera().Project(settings.T_camera_body * p_body, &pixel, &jacobian)) continue;
-    const double delay = lag_px / ((jacobian * (R_cb * flow)).norm() + kSlow);  // s
-    point -= (R_wb * (delay * flow)).cast<float>();
-  }
+  const LagBatch batch(BatchView(settings, points, T_map_body), T_map_body, velocity, rate, lag_px);
+  (batch.fisheye ? EquidistantMoveBack : PlumbBobMoveBack)(batch, points.mutable_local());
   return points;
 }
 

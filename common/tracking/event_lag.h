@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "common/tracking/event_alignment.h"
 
 namespace evit {
@@ -13,9 +11,8 @@ namespace evit {
 /// Returns `points` (map frame, m) moved to where they seemed to be, `lag_px` pixels behind their motion over
 /// the image, for a body at this pose, with this velocity (m/s, map frame) and angular rate (rad/s, body
 /// frame).
-std::vector<Eigen::Vector3f> CompensateEventLag(const AlignmentSettings& settings,
-                                                std::vector<Eigen::Vector3f> points, const SE3& T_map_body,
-                                                const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate,
-                                                double lag_px);
+AlignmentPoints CompensateEventLag(const AlignmentSettings& settings, AlignmentPoints points,
+                                   const SE3& T_map_body, const Eigen::Vector3d& velocity,
+                                   const Eigen::Vector3d& rate, double lag_px);
 
 }  // namespace evit

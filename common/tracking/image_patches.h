@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 
@@ -20,8 +19,8 @@ class ImagePatches {
 
   std::size_t size() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
   /// 0 .. size(), of a pixel inside the image.
-  std::size_t At(const Eigen::Vector2d& pixel) const {
-    const int column = static_cast<int>(pixel.x()) / side_, row = static_cast<int>(pixel.y()) / side_;
+  std::size_t At(float u, float v) const {
+    const int column = static_cast<int>(u) / side_, row = static_cast<int>(v) / side_;
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
   }

@@ -56,4 +56,33 @@ EVIT_ALWAYS_INLINE double KernelLanes(const LaneKernel& kernel, const float* s, 
   return sum;
 }
 
+/// rho' and rho'' of the squared residuals s.
+EVIT_ALWAYS_INLINE void KernelSlopeLanes(const LaneKernel& kernel, const float* s, float* first,
+                                         float* second) {
+  const float c = kernel.c, c2 = c * c;
+  switch (kernel.kind) {
+    case RobustKernel::Kind::kCauchy:
+      for (int l = 0; l < kLanes; ++l) {
+        first[l] = 1 / (1 + s[l] * kernel.inverse_c2);
+        second[l] = -first[l] * first[l] * kernel.inverse_c2;
+      }
+      break;
+    case RobustKernel::Kind::kHuber:
+      for (int l = 0; l < kLanes; ++l) {
+        const bool inlier = s[l] <= c2;
+        const float safe = inlier ? 1 : s[l], root = std::sqrt(safe);
+        first[l] = inlier ? 1 : c / root;
+        second[l] = inlier ? 0 : -0.5F * c / (safe * root);
+      }
+      break;
+    case RobustKernel::Kind::kGemanMcClure:
+      for (int l = 0; l < kLanes; ++l) {
+        const float share = c2 / (c2 + s[l]);
+        first[l] = share * share;
+        second[l] = -2 * share * share / (c2 + s[l]);
+      }
+      break;
+  }
+}
+
 }  // namespace evit
