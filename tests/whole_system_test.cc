@@ -282,6 +282,17 @@ TEST_F(WholeSystemTest, LcmToolsCanPlayAndRecord) {
   EXPECT_GT(std::atoi(channels.output.c_str()), 20) << channels.output;
 }
 
+// As with a disk that fills up at the end.
+TEST_F(WholeSystemTest, APictureThatCannotBeWrittenCostsNoResult) {
+  fs::create_directories(Path("out/trajectory.png"));  // a folder, which no picture can replace
+  const Result result = Shell(RunCommand("out"));
+  EXPECT_EQ(result.code, 1) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("trajectory.png: cannot be written"));
+  ExpectGood(Path("out/trajectory.tum"), 0.02, 0.8);
+  EXPECT_TRUE(fs::exists(Path("out/report.json")));
+  EXPECT_TRUE(fs::exists(Path("out/consistency.png")));
+}
+
 TEST_F(WholeSystemTest, BadInputIsNamedAndLeavesNothingBehind) {
   std::ofstream(Path("empty.pcd"))
       << "# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 0\nHEIGHT "

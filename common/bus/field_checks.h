@@ -60,6 +60,12 @@ class FieldChecks {
     return Named(name, std::abs(norm - 1.0) <= 1e-3, " is not a unit quaternion");  // false for NaN
   }
 
+  /// position and orientation of any message that has them.
+  template <typename Message>
+  FieldChecks& Pose(const Message& m) {
+    return Finite("position", m.position).Unit("orientation", m.orientation);
+  }
+
   FieldChecks& Increasing(const char* name, const std::vector<std::int64_t>& times) {
     bool increasing = true;
     for (std::size_t i = 1; i < times.size(); ++i) increasing = increasing && times[i - 1] < times[i];

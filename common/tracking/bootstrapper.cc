@@ -101,7 +101,7 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
   // A chain that may be false moves no anchor: where it ends nothing would be left of where the body was.
   rejected_ = 0;
   anchor_.Start(fit.T_map_body, state_.velocity);
-  if (ReadyToAlign() && Verified(keyframe.seq, &result)) Align(&result);
+  if (ReadyToAlign()) AlignUnlessRivaled(keyframe.seq, &result);
   return result;
 }
 
@@ -120,10 +120,13 @@ bool Bootstrapper::Found() const {
 
 // A false lock may look as sure as the right one while no other is known: before the window takes over, none
 // may explain the newest frame as well. Where another explains it better the chain starts again from there.
-bool Bootstrapper::Verified(std::int64_t seq, Result* result) {
+void Bootstrapper::AlignUnlessRivaled(std::int64_t seq, Result* result) {
   const SurfaceField& field = *frames_.back().field;
   const StartRival rival = FindRival(alignment_, field, result->points, state_.T_map_body, kStart, seq);
-  if (!rival.distinct || rival.significance > 0) return true;
+  if (!rival.distinct || rival.significance > 0) {
+    Align(result);
+    return;
+  }
   result->reason = "another pose explains the events as well";
   if (rival.significance < -kPreferredSignificance) {
     BodyState start = state_;
@@ -131,7 +134,6 @@ bool Bootstrapper::Verified(std::int64_t seq, Result* result) {
     start.velocity.setZero();
     Start(start);
   }
-  return false;
 }
 
 void Bootstrapper::RejectFrame(Result* result) {

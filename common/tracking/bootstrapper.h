@@ -62,7 +62,7 @@ class Bootstrapper {
   Eigen::Vector3d RecentVelocity() const;
   bool ReadyToAlign() const;
   bool Found() const;
-  bool Verified(std::int64_t seq, Result* result);
+  void AlignUnlessRivaled(std::int64_t seq, Result* result);
   void Align(Result* result);
 
   Rig rig_;

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 
 #include "common/text/format_text.h"
+#include "tools/pictures/write_picture.h"
 
 namespace evit::locate {
 namespace {
@@ -44,12 +43,7 @@ void WriteCandidates(const std::string& path, const cv::Mat& surface, const MapI
     panels.push_back(Panel(surface, map, rig, candidates[k]));
   cv::Mat picture;
   cv::hconcat(panels, picture);
-  bool written = false;
-  try {
-    written = cv::imwrite(path, picture);
-  } catch (const cv::Exception&) {  // an extension it does not know
-  }
-  if (!written) throw std::runtime_error(path + ": cannot be written; give a name that ends in .png");
+  pictures::WritePicture(path, picture);
 }
 
 }  // namespace evit::locate

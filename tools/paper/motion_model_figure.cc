@@ -1,11 +1,11 @@
 #include "tools/paper/motion_model_figure.h"
 
 #include <cstdio>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
 #include "tools/paper/surface_picture.h"
 #include "tools/pictures/chart.h"
+#include "tools/pictures/write_picture.h"
 
 namespace evit::paper {
 namespace {
@@ -71,7 +71,7 @@ void DrawMotionModels(const std::string& path, const std::string& title, const K
     pictures::DrawText(&image, text, {where.x + width / 2, where.y + height + 26}, 0.65,
                        pictures::Anchor::kCenter);
   }
-  if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
+  pictures::WritePicture(path, image);
 }
 
 }  // namespace evit::paper

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 
 #include "tools/pictures/chart.h"
+#include "tools/pictures/write_picture.h"
 
 namespace evit::paper {
 namespace {
@@ -115,7 +114,7 @@ void DrawTrajectories(const std::string& path, const std::string& title, const T
     }
     chart.Draw(&image, {10 + (c / 3) * (kWidth / 2), kTop + (c % 3) * kRow, kWidth / 2 - 20, kRow});
   }
-  if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
+  pictures::WritePicture(path, image);
 }
 
 }  // namespace evit::paper

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "tools/paper/surface_picture.h"
 #include "tools/pictures/chart.h"
 #include "tools/pictures/top_view.h"
+#include "tools/pictures/write_picture.h"
 
 namespace evit::paper {
 namespace {
@@ -141,7 +141,7 @@ void DrawWindow(const std::string& path, const std::string& title, const Keyfram
                   1e-3 * static_cast<double>(window.node[k].utime - window.utime));
     pictures::DrawText(&image, text, {where.x + kThumbnail / 2, y - 10}, 0.5, pictures::Anchor::kCenter);
   }
-  if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
+  pictures::WritePicture(path, image);
 }
 
 }  // namespace evit::paper

@@ -10,12 +10,10 @@
 #include "tools/pictures/consistency_plot.h"
 #include "tools/pictures/run_plot.h"
 #include "tools/run/report_writer.h"
+#include "tools/run/run_verdict.h"
 
 namespace evit::run {
 namespace {
-
-constexpr double kMinTracked = 0.5;    // share of the time, below which a run is no success
-constexpr double kMaxUntimely = 0.05;  // share of events or samples that may be left out for their stamps
 
 // Only what was played counts: an interrupted run has seen a part.
 double PlayedSeconds(const RunInputs& inputs, const Recorder& recorder, const RunOutcome& outcome) {
@@ -126,58 +124,6 @@ std::string LossText(const report::Report& report) {
   return FormatText("%.0f messages lost", lost);
 }
 
-// What arrived and could not be used for its time.
-struct Untimely {
-  double events = 0, imu = 0;  // counts
-  double imu_share = 0, events_share = 0;
-};
-
-Untimely UntimelyOf(const report::Report& report) {
-  const auto count = [&](const char* name) {
-    for (const report::Service& service : report.services()) {
-      const auto found = service.counters().find(name);
-      if (service.name() == "frame_builder" && found != service.counters().end()) return found->second;
-    }
-    return 0.0;
-  };
-  Untimely out;
-  out.events = count("events.late") + count("events.ahead");
-  out.imu = count("imu.late") + count("imu.ahead");
-  if (report.events() > 0) out.events_share = out.events / report.events();
-  if (count("imu.samples") > 0) out.imu_share = out.imu / count("imu.samples");
-  return out;
-}
-
-// Share of the time that was played in which poses came, at most half a second apart.
-double TrackedShare(const Trajectory& poses, double seconds) {
-  constexpr Utime kTogether = 500'000;  // us
-  Utime covered = 0;
-  for (std::size_t k = 1; k < poses.size(); ++k) {
-    const Utime step = poses[k].t - poses[k - 1].t;
-    if (step <= kTogether) covered += step;
-  }
-  return seconds > 0 ? ToSeconds(covered) / seconds : 0;
-}
-
-// Why the run is no success; empty where it is.
-std::string Failure(const report::Report& report, const Recorder& recorder, double tracked,
-                    const Untimely& untimely) {
-  if (report.keyframes() == 0) return "no keyframe was tracked; " + StatusText(recorder);
-  if (report.final_mode() != "TRACKING")
-    return report.final_mode() + " at the end: " + recorder.mode().reason;
-  if (tracked < kMinTracked)
-    return FormatText(
-        "poses cover only %.0f %% of the time that was played; mode_changes in report.json say why",
-        100 * tracked);
-  if (untimely.events_share > kMaxUntimely || untimely.imu_share > kMaxUntimely) {
-    return FormatText(
-        "%.0f %% of the events and %.0f %% of the IMU samples came too late or lie far ahead: their "
-        "stamps are out of order; import the recording again, which sorts or names them",
-        100 * untimely.events_share, 100 * untimely.imu_share);
-  }
-  return "";
-}
-
 // A picture that cannot be written costs no result: what is there is kept, and it is said.
 template <typename Plot>
 bool Draw(const Plot& plot) {
@@ -246,7 +192,9 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
   std::printf("results: %s/{trajectory.tum,smoothed.tum,covariance.csv,report.json,trajectory.png%s}\n",
               job.out.c_str(), scored ? ",consistency.png" : "");
   std::fflush(stdout);
-  const std::string failure = Failure(report, recorder, TrackedShare(online, report.sequence_s()), untimely);
+  const std::string failure =
+      FailureOf(report, report.keyframes() == 0 ? StatusText(recorder) : recorder.mode().reason,
+                TrackedShare(online, report.sequence_s()), untimely);
   if (!failure.empty()) std::fprintf(stderr, "evit run: %s\n", failure.c_str());
   if (outcome.ended == "interrupted") return 130;
   if (!failure.empty()) return 2;

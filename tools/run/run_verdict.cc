@@ -1,0 +1,57 @@
+#include "tools/run/run_verdict.h"
+
+#include "common/text/format_text.h"
+
+namespace evit::run {
+namespace {
+
+constexpr double kMinTracked = 0.5;    // share of the time, below which a run is no success
+constexpr double kMaxUntimely = 0.05;  // share of events or samples that may be left out for their stamps
+
+}  // namespace
+
+Untimely UntimelyOf(const report::Report& report) {
+  const auto count = [&](const char* name) {
+    for (const report::Service& service : report.services()) {
+      const auto found = service.counters().find(name);
+      if (service.name() == "frame_builder" && found != service.counters().end()) return found->second;
+    }
+    return 0.0;
+  };
+  Untimely out;
+  out.events = count("events.late") + count("events.ahead");
+  out.imu = count("imu.late") + count("imu.ahead");
+  if (report.events() > 0) out.events_share = out.events / report.events();
+  if (count("imu.samples") > 0) out.imu_share = out.imu / count("imu.samples");
+  return out;
+}
+
+double TrackedShare(const Trajectory& poses, double seconds) {
+  constexpr Utime kTogether = 500'000;  // us
+  Utime covered = 0;
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    const Utime step = poses[k].t - poses[k - 1].t;
+    if (step <= kTogether) covered += step;
+  }
+  return seconds > 0 ? ToSeconds(covered) / seconds : 0;
+}
+
+std::string FailureOf(const report::Report& report, const std::string& reason, double tracked_share,
+                      const Untimely& untimely) {
+  if (report.keyframes() == 0) return "no keyframe was tracked; " + reason;
+  if (report.final_mode() != "TRACKING")
+    return report.final_mode() + " at the end: " + reason;
+  if (tracked_share < kMinTracked)
+    return FormatText(
+        "poses cover only %.0f %% of the time that was played; mode_changes in report.json say why",
+        100 * tracked_share);
+  if (untimely.events_share > kMaxUntimely || untimely.imu_share > kMaxUntimely) {
+    return FormatText(
+        "%.0f %% of the events and %.0f %% of the IMU samples came too late or lie far ahead: their "
+        "stamps are out of order; import the recording again, which sorts or names them",
+        100 * untimely.events_share, 100 * untimely.imu_share);
+  }
+  return "";
+}
+
+}  // namespace evit::run
