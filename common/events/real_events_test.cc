@@ -14,7 +14,7 @@
 namespace evit {
 namespace {
 
-constexpr int kWidth = 240, kHeight = 180;
+constexpr int kSensorWidth = 240, kSensorHeight = 180;
 
 class RealEventsTest : public ::testing::Test {
  protected:
@@ -35,13 +35,13 @@ enum class Side { kBefore, kAfter, kNearest };
 
 SurfaceRenderer::Image Draw(const EventArray& events, Utime t, Side side) {
   const SurfaceOptions options = test::SmallOptions().surface;
-  ActiveEventSurface surface(kWidth, kHeight);
+  ActiveEventSurface surface(kSensorWidth, kSensorHeight);
   std::size_t middle = 0;
   while (middle < events.size() && events.t[middle] <= t) ++middle;
   if (side != Side::kAfter) {
     surface.Update(events.t.data(), events.x.data(), events.y.data(), events.p.data(), middle);
   }
-  SurfaceRenderer renderer(kWidth, kHeight, options);
+  SurfaceRenderer renderer(kSensorWidth, kSensorHeight, options);
   SurfaceRenderer::View view;
   view.t = t;
   view.decay_us = 15'000;
@@ -59,9 +59,9 @@ double ShiftX(const SurfaceRenderer::Image& a, const SurfaceRenderer::Image& b) 
   std::vector<double> cost;
   for (int s = -kReach; s <= kReach; ++s) {
     double sum = 0;
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = kReach; x < kWidth - kReach; ++x) {
-        const double d = double(a[y * kWidth + x]) - b[y * kWidth + x + s];
+    for (int y = 0; y < kSensorHeight; ++y) {
+      for (int x = kReach; x < kSensorWidth - kReach; ++x) {
+        const double d = double(a[y * kSensorWidth + x]) - b[y * kSensorWidth + x + s];
         sum += d * d;
       }
     }
@@ -88,8 +88,8 @@ TEST_F(RealEventsTest, SymmetricSurfaceLiesMidwayBetweenPastAndFuture) {
 
 TEST_F(RealEventsTest, KeyframesDoNotDependOnThePackets) {
   Rig rig = test::SmallRig();
-  rig.camera.width = kWidth;
-  rig.camera.height = kHeight;
+  rig.camera.width = kSensorWidth;
+  rig.camera.height = kSensorHeight;
   const std::vector<ImuSample> imu = test::ImuStream(0, 175'000);
   std::vector<Keyframe> results[2];
   for (int run = 0; run < 2; ++run) {

@@ -11,7 +11,7 @@ using test::Raw;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const std::vector<Eigen::Vector3f> kPoints = {{1.5F, -2, 3}, {0.25F, 1e-3F, -7}};
+const std::vector<Eigen::Vector3f> kPlyPoints = {{1.5F, -2, 3}, {0.25F, 1e-3F, -7}};
 
 std::string Header(const std::string& format, const std::string& elements) {
   return "ply\nformat " + format + " 1.0\ncomment by a test\n" + elements + "end_header\n";
@@ -28,7 +28,7 @@ std::string Elements(int vertices) {
 TEST(PlyTest, Ascii) {
   const LoadedMap loaded = Load(Header("ascii", Elements(2)) +
                                 "0.5 3 1 2 3\n255 -2 1.5 2 0.5 0.5 3\n0 0.001 0.25 0 -7\n3 0 1 0\n");
-  EXPECT_EQ(loaded.map.points, kPoints);
+  EXPECT_EQ(loaded.map.points, kPlyPoints);
   EXPECT_EQ(loaded.format, "PLY ascii");
 }
 
@@ -37,11 +37,11 @@ std::string Binary(bool big) {
   bytes += Raw(0.5F, big) + Raw<std::uint8_t>(3) + Raw<std::int16_t>(1, big) + Raw<std::int16_t>(2, big) +
            Raw<std::int16_t>(3, big);
   for (int k = 0; k < 2; ++k) {
-    bytes +=
-        Raw<std::uint8_t>(255) + Raw(static_cast<double>(kPoints[k].y()), big) + Raw(kPoints[k].x(), big);
+    bytes += Raw<std::uint8_t>(255) + Raw(static_cast<double>(kPlyPoints[k].y()), big) +
+             Raw(kPlyPoints[k].x(), big);
     bytes += Raw<std::int32_t>(2 * k, big);
     for (int i = 0; i < 2 * k; ++i) bytes += Raw(9.0F, big);
-    bytes += Raw(kPoints[k].z(), big);
+    bytes += Raw(kPlyPoints[k].z(), big);
   }
   return bytes;
 }
@@ -49,7 +49,7 @@ std::string Binary(bool big) {
 TEST(PlyTest, BinaryInBothByteOrders) {
   for (const bool big : {false, true}) {
     const LoadedMap loaded = Load(Binary(big));
-    EXPECT_EQ(loaded.map.points, kPoints) << big;
+    EXPECT_EQ(loaded.map.points, kPlyPoints) << big;
     EXPECT_EQ(loaded.format, big ? "PLY binary_big_endian" : "PLY binary_little_endian");
     const std::string bytes = Binary(big);
     EXPECT_THAT(LoadError(bytes.substr(0, bytes.size() - 1)), HasSubstr("truncated"));

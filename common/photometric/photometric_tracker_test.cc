@@ -8,13 +8,13 @@
 namespace evit {
 namespace {
 
-constexpr double kThreshold = 0.25;
+constexpr double kContrast = 0.25;
 
 PhotometricTrackerOptions Options() {
   PhotometricTrackerOptions o;
   o.min_events = 200;
   o.lag_px = o.map_sigma_m = o.stamp_sigma_us = 0;
-  o.photometric.contrast_threshold = kThreshold;
+  o.photometric.contrast_threshold = kContrast;
   o.photometric.max_points = 3000;
   o.photometric.min_gradient = 0.03;
   o.photometric.min_correlation = 0.6;
@@ -55,7 +55,7 @@ struct Bench {
     frame.end = t + kInterval / 2;
     if (before.log_intensity.empty()) before = see(frame.begin);
     MapView after = see(frame.end);
-    frame.counts = test::CountBetween(before, after, kThreshold);
+    frame.counts = test::CountBetween(before, after, kContrast);
     before = std::move(after);
     frame.n_events = cv::countNonZero(frame.counts != 128);
     MapView view;

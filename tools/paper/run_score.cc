@@ -66,6 +66,10 @@ const AlignmentNames& NamesOf(Alignment alignment) {
 
 }  // namespace
 
+std::size_t AlignmentIndex(Alignment alignment) {
+  return std::find(kAlignments.begin(), kAlignments.end(), alignment) - kAlignments.begin();
+}
+
 const char* AlignmentId(Alignment alignment) { return NamesOf(alignment).id; }
 const char* AlignmentText(Alignment alignment) { return NamesOf(alignment).text; }
 

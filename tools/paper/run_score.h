@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,8 @@ inline constexpr std::array<double, 3> kMilestones{0.3, 0.5, 1.0};
 /// How trajectories are aligned: the paper's way first.
 inline constexpr std::array<Alignment, 3> kAlignments{Alignment::kFirstPair, Alignment::kUmeyama,
                                                       Alignment::kNone};
+/// Its place in kAlignments.
+std::size_t AlignmentIndex(Alignment alignment);
 /// For file names ("first_pair"), and for people.
 const char* AlignmentId(Alignment alignment);
 const char* AlignmentText(Alignment alignment);

@@ -1,5 +1,4 @@
 // Tables as files: Markdown as in the paper, CSV and JSON for programs.
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -12,10 +11,6 @@ namespace evit::paper {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::size_t Index(Alignment alignment) {
-  return std::find(kAlignments.begin(), kAlignments.end(), alignment) - kAlignments.begin();
-}
 
 std::string Percent(std::size_t milestone) {
   return std::to_string(static_cast<int>(100 * kMilestones[milestone] + 0.5));
@@ -105,7 +100,7 @@ TextTable LongLayout(const paper::Paper& config, const PaperResults& results, Pa
         row.sequence->name(),    source == results.sources.end() ? "" : source->second,
         row.method->id(),        row.method->name(),
         row.method->frequency(), std::to_string(s.seeds)};
-    for (const Summary::Milestone& m : s.ate[Index(alignment)]) {
+    for (const Summary::Milestone& m : s.ate[AlignmentIndex(alignment)]) {
       cells.push_back(std::to_string(m.reached));
       for (const auto& spread : {m.position_cm, m.orientation_deg}) {
         cells.push_back(Plain(spread, false));
@@ -136,10 +131,10 @@ std::string TableJson(const paper::Paper& config, const PaperResults& results, P
              {"frequency", row.method->frequency()},
              {"seeds", s.seeds}};
     for (std::size_t m = 0; m < kMilestones.size(); ++m)
-      out[Percent(m) + "%"] = ToJson(s.ate[Index(alignment)][m]);
+      out[Percent(m) + "%"] = ToJson(s.ate[AlignmentIndex(alignment)][m]);
     out["keyframe_rate_hz"] = ToJson(s.keyframe_rate_hz);
     out["cpu_s_per_s"] = ToJson(s.cpu_s_per_s);
-    for (const RunScore& run : *row.runs) out["runs"].push_back(ToJson(run, Index(alignment)));
+    for (const RunScore& run : *row.runs) out["runs"].push_back(ToJson(run, AlignmentIndex(alignment)));
     json["rows"].push_back(out);
   }
   return json.dump(2) + "\n";

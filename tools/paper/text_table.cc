@@ -9,10 +9,6 @@
 namespace evit::paper {
 namespace {
 
-std::size_t Index(Alignment alignment) {
-  return std::find(kAlignments.begin(), kAlignments.end(), alignment) - kAlignments.begin();
-}
-
 std::string Number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2f", value);
@@ -130,9 +126,9 @@ TextTable PaperLayout(const paper::Paper& config, const PaperResults& results, P
   }
   for (const Group& group : GroupsOf(config, results, table)) {
     if (table == PaperTable::kMotionModels) {
-      AppendModels(group, config, Index(alignment), &out);
+      AppendModels(group, config, AlignmentIndex(alignment), &out);
     } else {
-      AppendMethods(group, Index(alignment), &out);
+      AppendMethods(group, AlignmentIndex(alignment), &out);
     }
   }
   return out;

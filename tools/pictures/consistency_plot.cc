@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kDegrees = 57.295779513082323;
 constexpr double kGap = 0.3;  // s: longer ones are not bridged
-const cv::Scalar kError(150, 50, 130), kBound(170, 170, 170);
+const cv::Scalar kErrorColour(150, 50, 130), kBound(170, 170, 170);
 const char* const kNames[6] = {"position x (map)",  "position y (map)",  "position z (map)",
                                "rotation x (body)", "rotation y (body)", "rotation z (body)"};
 
@@ -26,7 +26,7 @@ void PlotConsistency(const std::string& path, const std::string& title, const Co
     const double unit = k < 3 ? 100 : kDegrees;
     Chart chart{kNames[k], "time [s]", k < 3 ? "[cm]" : "[deg]", {}, false, false};
     if (errors.empty()) chart.title += ": no ground truth";
-    Series error{"error", kError, {}, {}, true, kGap};
+    Series error{"error", kErrorColour, {}, {}, true, kGap};
     Series above{"2 sigma", kBound, {}, {}, true, kGap}, below{"", kBound, {}, {}, true, kGap};
     for (const PoseError& row : errors) {
       error.x.push_back(ToSeconds(row.t - t0));

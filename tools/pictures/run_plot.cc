@@ -6,14 +6,14 @@
 namespace evit::pictures {
 namespace {
 
-constexpr double kDegrees = 57.295779513082323;
+constexpr double kDegreesPerRadian = 57.295779513082323;
 const cv::Scalar kColors[3] = {
     {0, 94, 213}, {115, 158, 0}, {178, 114, 0}};  // x orange, y green, z blue: safe for colour-blind eyes
 const cv::Scalar kTruth(170, 170, 170), kError(150, 50, 130);
 
 // Rotation relative to `reference` as a rotation vector, degrees: unlike Euler angles it does not jump.
 Eigen::Vector3d Turn(const Eigen::Quaterniond& reference, const Eigen::Quaterniond& q) {
-  return kDegrees * LogSO3(reference.conjugate() * q);
+  return kDegreesPerRadian * LogSO3(reference.conjugate() * q);
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ void PlotRun(const std::string& path, const std::string& title, const Trajectory
     dp.x.push_back(ToSeconds(s.t - t0));
     dr.x.push_back(ToSeconds(s.t - t0));
     dp.y.push_back(100 * (s.pose.p - at.p).norm());
-    dr.y.push_back(kDegrees * AngularDistance(s.pose.q, at.q));
+    dr.y.push_back(kDegreesPerRadian * AngularDistance(s.pose.q, at.q));
   }
   if (dp.x.empty()) position_error.title = rotation_error.title = "error: no ground truth";
   position_error.series = {dp};

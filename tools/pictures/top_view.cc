@@ -22,7 +22,7 @@ const cv::Scalar kInk(60, 60, 60);  // BGR
 const cv::Vec3b kPaper(255, 255, 255);
 
 // Bounds of one coordinate without strays.
-std::pair<float, float> Range(const PointMap& map, int axis) {
+std::pair<float, float> Extent(const PointMap& map, int axis) {
   std::vector<float> values;
   values.reserve(map.points.size());
   for (const auto& p : map.points) values.push_back(p[axis]);
@@ -56,8 +56,8 @@ void Write(cv::Mat* picture, const std::string& text, cv::Point at) {
 }  // namespace
 
 TopView DrawTopView(const PointMap& map, int side, const std::vector<Eigen::Vector2d>& also) {
-  auto x = Range(map, 0), y = Range(map, 1);
-  const auto z = Range(map, 2);
+  auto x = Extent(map, 0), y = Extent(map, 1);
+  const auto z = Extent(map, 2);
   for (const Eigen::Vector2d& p : also) {
     x = {std::min(x.first, static_cast<float>(p.x())), std::max(x.second, static_cast<float>(p.x()))};
     y = {std::min(y.first, static_cast<float>(p.y())), std::max(y.second, static_cast<float>(p.y()))};

@@ -9,7 +9,7 @@ namespace evit::simulation {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979;
+constexpr double kRightAngle = 0.5 * 3.14159265358979;
 
 // Moves the path's middle to `centre`, or as near to it as the free space allows.
 void Centre(const Eigen::AlignedBox3d& path, const Eigen::AlignedBox3d& free_space, Eigen::Vector3d centre,
@@ -28,7 +28,7 @@ void PlaceInRoom(const Rig& rig, const Scene& scene, Motion* motion) {
     look += (motion->spline.Pose(t) * rig.T_body_camera).q * Eigen::Vector3d::UnitZ();
   }
   double yaw = std::atan2(look.y(), look.x());
-  if (motion->at_desk) yaw -= 0.5 * kPi;  // the desk is towards +y
+  if (motion->at_desk) yaw -= kRightAngle;  // the desk is towards +y
   motion->spline = motion->spline.Moved({ExpSO3(Eigen::Vector3d(0, 0, -yaw)), Eigen::Vector3d::Zero()});
   Eigen::AlignedBox3d box;
   for (Utime t = motion->begin; t <= motion->end; t += kStep) {
