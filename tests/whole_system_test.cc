@@ -284,7 +284,7 @@ TEST_F(WholeSystemTest, LcmToolsCanPlayAndRecord) {
 
 // As with a disk that fills up at the end.
 TEST_F(WholeSystemTest, APictureThatCannotBeWrittenCostsNoResult) {
-  fs::create_directories(Path("out/trajectory.png"));  // a folder, which no picture can replace
+  fs::create_directories(Path("out/trajectory.png/in_use"));  // a folder, which no picture can replace
   const Result result = Shell(RunCommand("out"));
   EXPECT_EQ(result.code, 1) << result.output;
   EXPECT_THAT(result.output, HasSubstr("trajectory.png: cannot be written"));

@@ -39,8 +39,7 @@ double TrackedShare(const Trajectory& poses, double seconds) {
 std::string FailureOf(const report::Report& report, const std::string& reason, double tracked_share,
                       const Untimely& untimely) {
   if (report.keyframes() == 0) return "no keyframe was tracked; " + reason;
-  if (report.final_mode() != "TRACKING")
-    return report.final_mode() + " at the end: " + reason;
+  if (report.final_mode() != "TRACKING") return report.final_mode() + " at the end: " + reason;
   if (tracked_share < kMinTracked)
     return FormatText(
         "poses cover only %.0f %% of the time that was played; mode_changes in report.json say why",

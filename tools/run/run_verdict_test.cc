@@ -30,7 +30,8 @@ TEST(RunVerdict, BeingLostAtTheEndIsAFailureWithItsReason) {
 }
 
 TEST(RunVerdict, NoKeyframeIsAFailure) {
-  EXPECT_THAT(FailureOf(report::Report(), "frame_builder: starting", 0, {}), HasSubstr("frame_builder: starting"));
+  EXPECT_THAT(FailureOf(report::Report(), "frame_builder: starting", 0, {}),
+              HasSubstr("frame_builder: starting"));
 }
 
 TEST(RunVerdict, MoreThanATwentiethOutOfTimeIsAFailure) {
