@@ -32,20 +32,21 @@ LocatingTracker::LocatingTracker(std::unique_ptr<MapTracker> tracker, const Rig&
       options_(options),
       alignment_(MakeAlignmentSettings(rig, tracker_options.window)),
       far_(PointsAllOver(rig.camera, rig.T_body_camera)),
+      scale_(rig.gravity),
       searching_(options.from_nothing) {}
 
 void LocatingTracker::Start(const SE3& T_map_body) {
-  searching_ = false;
+  searching_ = watching_ = false;
   tracker_->Start(T_map_body);
 }
 
 void LocatingTracker::Start(const BodyState& state) {
-  searching_ = false;
+  searching_ = watching_ = false;
   tracker_->Start(state);
 }
 
 void LocatingTracker::Start(Utime t, const BodyState& state, const Matrix15d& information) {
-  searching_ = false;
+  searching_ = watching_ = false;
   tracker_->Start(t, state, information);
 }
 
@@ -58,7 +59,10 @@ void LocatingTracker::Search(TrackerMode mode) {
 
 TrackerOutput LocatingTracker::Process(const KeyframeInput& keyframe) {
   time_ = keyframe.t;
-  if (searching_) return ProcessSearching(keyframe);
+  return searching_ ? ProcessSearching(keyframe) : ProcessTracking(keyframe);
+}
+
+TrackerOutput LocatingTracker::ProcessTracking(const KeyframeInput& keyframe) {
   TrackerOutput output = tracker_->Process(keyframe);
   if (output.mode != TrackerMode::kLost) {
     lost_since_ = 0;
@@ -67,7 +71,27 @@ TrackerOutput LocatingTracker::Process(const KeyframeInput& keyframe) {
   } else if (options_.lost_s >= 0 && ToSeconds(keyframe.t - lost_since_) >= options_.lost_s) {
     Search(TrackerMode::kLost);
   }
+  if (watching_) WatchScale(keyframe, &output);
   return output;
+}
+
+// A place that was found although the map is of another size is no place: there is no pose then.
+void LocatingTracker::WatchScale(const KeyframeInput& keyframe, TrackerOutput* output) {
+  if (output->mode != TrackerMode::kTracking || !output->has_pose) {
+    scale_.Begin();
+    return;
+  }
+  const ScaleWatch::Verdict verdict =
+      scale_.Add(keyframe.t, output->nodes.back().state.T_map_body, keyframe.imu);
+  if (verdict == ScaleWatch::Verdict::kOpen) return;
+  watching_ = false;
+  if (verdict == ScaleWatch::Verdict::kAgrees) return;
+  locator_.DoubtScale();
+  Search(TrackerMode::kLost);
+  const std::string reason = SelfLocator::WrongScale(scale_.fit());
+  *output = TrackerOutput();
+  output->mode = TrackerMode::kLost;
+  output->reason = reason;
 }
 
 TrackerOutput LocatingTracker::ProcessSearching(const KeyframeInput& keyframe) {
@@ -75,6 +99,8 @@ TrackerOutput LocatingTracker::ProcessSearching(const KeyframeInput& keyframe) {
   locator_.AddKeyframe(keyframe);
   if (const std::optional<BodyState> found = locator_.Found()) {
     searching_ = false;
+    watching_ = true;
+    scale_.Begin();
     tracker_->Start(*found);
   }
   TrackerOutput output;

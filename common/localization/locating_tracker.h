@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/localization/scale_watch.h"
 #include "common/localization/self_locator.h"
 #include "common/tracking/map_tracker.h"
 
@@ -45,6 +46,8 @@ class LocatingTracker final : public MapTracker {
 
  private:
   void Search(TrackerMode mode);
+  TrackerOutput ProcessTracking(const KeyframeInput& keyframe);
+  void WatchScale(const KeyframeInput& keyframe, TrackerOutput* output);
   TrackerOutput ProcessSearching(const KeyframeInput& keyframe);
 
   std::unique_ptr<MapTracker> tracker_;
@@ -52,6 +55,8 @@ class LocatingTracker final : public MapTracker {
   Options options_;
   AlignmentSettings alignment_;
   AlignmentPoints far_;  // points all over the image, to tell how fast it moves by the gyro
+  ScaleWatch scale_;
+  bool watching_ = false;  // the scale, after a start without a pose
   bool searching_;
   TrackerMode mode_ = TrackerMode::kBootstrapping;  // while searching
   Utime time_ = 0;                                  // us: of the newest keyframe

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "common/localization/edge_points.h"
@@ -40,8 +41,13 @@ class PlaceIndex {
   explicit PlaceIndex(const PointMap& map, const PlaceIndexOptions& options = {},
                       const std::function<void(double)>& progress = nullptr);
 
+  /// One that was made before. The places' edges lie in `edges`.
+  PlaceIndex(double spacing, std::vector<Place> places, std::vector<Edge> edges)
+      : spacing_(spacing), places_(std::move(places)), edges_(std::move(edges)) {}
+
   const std::vector<Place>& places() const { return places_; }
   const Edge* edges() const { return edges_.data(); }
+  std::size_t n_edges() const { return edges_.size(); }
   double spacing() const { return spacing_; }  // m, of the grid as it is
   std::size_t MemoryBytes() const;
 

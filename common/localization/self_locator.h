@@ -1,13 +1,15 @@
 #pragma once
 
 #include <deque>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/geometry/rig.h"
+#include "common/localization/followed_places.h"
+#include "common/localization/motion_fit.h"
 #include "common/localization/place_query.h"
+#include "common/localization/recent_imu.h"
 #include "common/tracking/keyframe_input.h"
 #include "common/tracking/state.h"
 #include "common/tracking/tracker_options.h"
@@ -43,6 +45,12 @@ class SelfLocator {
   void Restart();
   void AddKeyframe(const KeyframeInput& keyframe);
 
+  /// The map's size is not to be trusted: from now on a place counts as found only once the accelerometer
+  /// says that it fits.
+  void DoubtScale() { doubts_scale_ = true; }
+  /// What is wrong with a map that moves so, for a person.
+  static std::string WrongScale(const MotionFit& fit);
+
   /// What waits for an answer: null where nothing does.
   const PlaceQuery* question() const { return question_ ? &*question_ : nullptr; }
   /// PlaceFinder::Answer's, to question().
@@ -53,25 +61,8 @@ class SelfLocator {
 
   /// How far it is, for a person.
   std::string Progress() const;
-  /// What is followed, best first: pose and mean significance.
-  std::vector<PlaceCandidate> Followed() const;
 
  private:
-  struct Step {
-    Utime t;
-    SE3 T_map_body;
-    double significance;
-  };
-  struct Hypothesis {
-    BodyState state;  // at its last step
-    std::vector<Step> steps;
-    /// Significance over the newest steps.
-    double Mean(std::size_t newest = std::numeric_limits<std::size_t>::max()) const;
-
-    int weak = 0;  // last steps in a row that did not fit
-    double likeness = 0;
-    int n_points = 0;
-  };
   struct View {
     Utime t;
     cv::Mat surface;
@@ -79,26 +70,24 @@ class SelfLocator {
 
   void AskNext();
   void AskEverywhere(const View& view, std::vector<SE3> hypotheses);
-  void Follow(const std::vector<PlaceCandidate>& answer);
-  void Adopt(const PlaceCandidate& candidate);
-  void DropWeak();
   void Decide();
-  bool Aligned(const Hypothesis& hypothesis, BodyState* state) const;
-  std::vector<ImuSample> ImuBetween(Utime begin, Utime end) const;
-  std::size_t Rivals(const Hypothesis& best) const;
+  std::string WhatDisagrees(const FollowedPlace& place) const;
+  bool Aligned(const FollowedPlace& place, BodyState* state) const;
+  FollowedPlaces::ImuBetween Imu() const;
 
   Rig rig_;
   TrackerOptions tracker_;
   SelfLocatorOptions options_;
-  std::deque<ImuSample> imu_;  // without holes
-  std::deque<View> views_;     // not asked about yet
+  RecentImu imu_;
+  std::deque<View> views_;  // not asked about yet
   std::optional<PlaceQuery> question_;
-  std::vector<Hypothesis> hypotheses_;
+  FollowedPlaces places_;
   Utime last_view_ = 0;  // us: of the newest keyframe that was kept
   Utime searched_ = 0;   // us: keyframe of the last search everywhere; 0: none yet
   std::int64_t asked_ = 0;
-  std::optional<Step> found_;
-  BodyState found_state_;
+  bool doubts_scale_ = false;
+  Utime found_at_ = 0;  // us; 0: not found
+  BodyState found_;     // then
   std::string progress_ = "waiting for IMU samples";
 };
 

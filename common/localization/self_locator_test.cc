@@ -27,6 +27,7 @@ class SelfLocatorTest : public ::testing::Test {
   double Locate(const PointMap& seen, const synthetic::IndexedRoom& room, double seconds,
                 const SelfLocatorOptions& options = {}) {
     locator_.emplace(synthetic::IndexedRoom::TestRig(), TrackerOptions(), options);
+    if (doubts_scale_) locator_->DoubtScale();
     const Utime begin = 1'000'000, end = begin + static_cast<Utime>(seconds * 1e6);
     for (now_ = begin; now_ <= end; now_ += kStep) {
       locator_->AddKeyframe(Keyframe(seen, now_, now_ == begin));
@@ -40,6 +41,7 @@ class SelfLocatorTest : public ::testing::Test {
   synthetic::MotionInRoom motion_;
   std::optional<SelfLocator> locator_;
   Utime now_ = 0;
+  bool doubts_scale_ = false;
 };
 
 TEST_F(SelfLocatorTest, FindsItselfWithinTwoSeconds) {
@@ -87,6 +89,16 @@ TEST_F(SelfLocatorTest, AMapInCentimetresIsNotBelieved) {
     for (Eigen::Vector3f& p : scaled.points) p *= unit;
     EXPECT_LT(Locate(map, synthetic::IndexedRoom(scaled), 1.5), 0);
   }
+}
+
+TEST_F(SelfLocatorTest, WhereTheMapsSizeIsInDoubtTheAccelerometerHasTheLastWord) {
+  const PointMap& map = synthetic::TheRoom().index.map();
+  PointMap larger = map;
+  for (Eigen::Vector3f& p : larger.points) p *= 1.5F;
+  const synthetic::IndexedRoom room(larger);
+  doubts_scale_ = true;
+  EXPECT_LT(Locate(map, room, 3), 0);
+  EXPECT_GT(Locate(map, synthetic::TheRoom(), 3), 0);
 }
 
 TEST_F(SelfLocatorTest, PosesThatTheAccelerometerContradictsAreNotBelieved) {

@@ -2,6 +2,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "common/localization/place_index_file.h"
 #include "common/map/denoise.h"
 #include "common/map/map_file.h"
 #include "services/map_server/map_server.h"
@@ -35,8 +36,10 @@ int Main(int argc, char** argv) {
            "as read where the map has sigmas (evit map build thins its maps itself)")
       .Range(0.0, 0.2);
   bool places = false;
-  line.AddFlag("--places", &places,
-               "Make ready to say where in the map a keyframe was seen now, and not at the first question");
+  line.AddFlag(
+      "--places", &places,
+      "Make ready to say where in the map a keyframe was seen now, and not at the first question; kept "
+      "beside the map, as MAP.places, where that folder can be written");
   evit::AddServiceOptions(&line, &options, false);
   if (const auto code = line.Parse(argc, argv)) return *code;
   if (path.empty() && photometric_path.empty()) return line.Missing("--map or --photometric-map");
@@ -60,6 +63,7 @@ int Main(int argc, char** argv) {
   evit::MapServer service(bus.get(), evit::Channels(options.prefix), evit::MapIndex(std::move(loaded.map)),
                           description);
   if (photometric) service.ServeViews(*photometric);
+  if (!path.empty()) service.KeepPlacesIn(evit::PlaceIndexPath(path));
   if (places) service.PreparePlaces();
   photometric.reset();
   return evit::RunService(&service, bus.get());

@@ -28,6 +28,8 @@ class MapServer : public Service {
   /// Draws views of this map too: VIEW_QUERY in, MAP_VIEW out.
   void ServeViews(const PhotometricMap& map) { views_.emplace(bus_, channels_, &status_, map); }
 
+  /// The index of places for PLACE_QUERY is kept in this file from one run to the next.
+  void KeepPlacesIn(const std::string& path) { places_.KeepIn(path); }
   /// Makes ready for PLACE_QUERY now, and not when the first one comes.
   void PreparePlaces() { places_.Prepare(); }
 

@@ -5,6 +5,7 @@
 
 #include "common/bus/codec.h"
 #include "common/localization/place_finder.h"
+#include "common/localization/place_index_file.h"
 #include "common/wire/place_wire.h"
 
 namespace evit {
@@ -50,10 +51,12 @@ void PlaceServer::Begin(std::optional<place_query_t> message) {
 
 void PlaceServer::MakeIndex() {
   if (index_) return;
-  index_ = std::make_unique<const PlaceIndex>(map_->map(), PlaceIndexOptions(), [this](double share) {
+  const auto progress = [this](double share) {
     prepared_ = share;
     if (stopping_) throw std::runtime_error("stopped");
-  });
+  };
+  index_ = std::make_unique<const PlaceIndex>(
+      ReadOrMakePlaceIndex(path_, map_->map(), PlaceIndexOptions(), progress, &index_read_));
   prepared_ = 1;
 }
 
@@ -74,6 +77,7 @@ void PlaceServer::Tick() {
     if (work_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
     std::optional<places_t> answer = work_.get();
     status_->Counter("places.indexed") = static_cast<std::int64_t>(index_->places().size());
+    status_->Counter("places.read") = index_read_ ? 1 : 0;
     if (answer) {
       answer->seq = seq_++;
       answer->epoch = status_->epoch();

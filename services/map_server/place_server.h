@@ -5,6 +5,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -29,8 +30,10 @@ class PlaceServer {
   PlaceServer(Bus* bus, const Channels& channels, StatusReporter* status, const MapIndex* map);
   ~PlaceServer();
 
-  /// Begins to make the index.
+  /// Begins to make the index, or to read it.
   void Prepare();
+  /// Where the index is kept (PlaceIndexPath). Before the first Tick().
+  void KeepIn(const std::string& path) { path_ = path; }
   /// Sends what is answered and begins with what is asked; of a flood the newest question only.
   void Tick();
   bool busy() const { return work_.valid(); }
@@ -46,7 +49,9 @@ class PlaceServer {
   StatusReporter* status_;
   SequenceCounter queries_;
   const MapIndex* map_;
+  std::string path_;                         // empty: not kept
   std::unique_ptr<const PlaceIndex> index_;  // the thread's, while it works
+  bool index_read_ = false;                  // from its file; the thread's, too
   std::atomic<double> prepared_{0};          // 0..1: of the index
   std::atomic<bool> stopping_{false};
   std::optional<place_query_t> waiting_;

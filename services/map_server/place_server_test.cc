@@ -1,8 +1,10 @@
 #include "services/map_server/place_server.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <thread>
 
@@ -100,6 +102,27 @@ TEST_F(PlaceServerTest, AnswersOnceAndAgainWhereTheAnswerWasLost) {
   WaitFor(3);
   EXPECT_EQ(answers_[2].query_seq, 4);
   EXPECT_GT(Counter("places.indexed"), 0);
+}
+
+TEST_F(PlaceServerTest, TheIndexIsKeptFromOneRunToTheNext) {
+  const std::string path = ::testing::TempDir() + std::to_string(getpid()) + "corner.pcd.places";
+  std::filesystem::remove(path);
+  server_.KeepPlacesIn(path);
+  Send(Query(1));
+  WaitFor(1);
+  EXPECT_EQ(Counter("places.read"), 0);
+  const std::unique_ptr<Bus> bus = OpenMemoryBus(hub_);
+  MapServer again(bus.get(), Channels(), MapIndex(Corner()), "a corner");
+  again.KeepPlacesIn(path);
+  again.PreparePlaces();
+  counters_.clear();
+  for (int k = 0; k < 60'000 && counters_.count("places.read") == 0; ++k) {
+    again.Tick();
+    other_->Poll(0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(counters_["places.read"], 1);
+  std::filesystem::remove(path);
 }
 
 TEST_F(PlaceServerTest, AbsurdQuestionsAreCountedNotAnswered) {

@@ -26,7 +26,7 @@ constexpr double kDegree = 3.14159265358979 / 180;
 struct LocateOptions {
   std::string log, map, rig, config, truth, picture;
   run::PlaceTexts place;
-  double at = 0, seconds = 5;
+  double at = 0, seconds = 5, hold = 0;
   int starts = 0;
 };
 
@@ -56,6 +56,14 @@ std::string Compared(const locate::LocatorResult& result, const Trajectory& trut
   return text;
 }
 
+// What became of it afterwards, for a person.
+std::string Held(const locate::LocatorResult& result) {
+  if (result.withdrawn.empty()) return "";
+  char seconds[40];
+  std::snprintf(seconds, sizeof seconds, "; withdrawn after %.2f s: ", result.held_s);
+  return seconds + result.withdrawn;
+}
+
 // One start after the other, evenly over the recording. False: one was wrong.
 bool LocateOften(const LocateOptions& o, const locate::RecordedStreams& streams,
                  const std::function<locate::LocatorResult(Utime)>& run) {
@@ -74,8 +82,8 @@ bool LocateOften(const LocateOptions& o, const locate::RecordedStreams& streams,
     wrong += result.found && !right ? 1 : 0;
     search += result.search_s;
     cpu += result.cpu_s;
-    std::printf("start at %6.2f s: %s after %.2f s; %s\n", at, result.found ? "found" : "not found",
-                result.after_s, text.c_str());
+    std::printf("start at %6.2f s: %s after %.2f s; %s%s\n", at, result.found ? "found" : "not found",
+                result.after_s, text.c_str(), Held(result).c_str());
     std::fflush(stdout);
   }
   std::printf("starts %d right %d within_2s %d wrong %d search_s %.2f cpu_s %.2f\n", o.starts, found, within,
@@ -95,7 +103,7 @@ int Locate(const LocateOptions& o) {
               1e-6 * static_cast<double>(map.places->MemoryBytes()));
   std::fflush(stdout);
   const auto run = [&](Utime begin) {
-    return locate::RunLocator(streams, map, rig, options, locating, begin, o.seconds, threads);
+    return locate::RunLocator(streams, map, rig, options, locating, begin, o.seconds, o.hold, threads);
   };
   if (o.starts > 0) return LocateOften(o, streams, run) ? 0 : 2;
   const Utime begin = streams.begin() + static_cast<Utime>(o.at * 1e6);
@@ -132,6 +140,8 @@ void AddLocateCommand(CLI::App* app) {
   auto* at = locate->add_option("--at", o->at, "s from the start of the log, where to begin")
                  ->check(CLI::NonNegativeNumber);
   locate->add_option("--for", o->seconds, "s of the log to decide in")->check(CLI::PositiveNumber);
+  locate->add_option("--hold", o->hold, "s to track beyond that, to see whether it stays there")
+      ->check(CLI::NonNegativeNumber);
   auto* picture =
       locate->add_option("--picture", o->picture, "PNG to write: events and map, of the best candidates");
   auto* truth = locate->add_option("--truth", o->truth, "Truth (TUM) to compare with");

@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "common/events/keyframe_builder.h"
+#include "common/localization/place_index_file.h"
 #include "common/map/denoise.h"
 #include "common/map/map_file.h"
 #include "tools/terminal/progress_bar.h"
@@ -83,8 +84,8 @@ PreparedMap PrepareMap(const std::string& path, int threads) {
   options.threads = threads;
   {
     terminal::ProgressBar bar("preparing");
-    prepared.places =
-        std::make_unique<PlaceIndex>(loaded.map, options, [&](double share) { bar.Show(share, path); });
+    prepared.places = std::make_unique<PlaceIndex>(ReadOrMakePlaceIndex(
+        PlaceIndexPath(path), loaded.map, options, [&](double share) { bar.Show(share, path); }));
     bar.Show(1, path);
   }
   prepared.map = std::make_unique<MapIndex>(std::move(loaded.map));
@@ -93,15 +94,15 @@ PreparedMap PrepareMap(const std::string& path, int threads) {
 
 LocatorResult RunLocator(const RecordedStreams& streams, const PreparedMap& map, const Rig& rig,
                          const PipelineOptions& options, const LocatingTracker::Options& locating,
-                         Utime begin, double seconds, int threads) {
+                         Utime begin, double seconds, double hold_s, int threads) {
   const std::clock_t started = std::clock();
-  const Utime end = std::min(streams.end(), begin + static_cast<Utime>(seconds * 1e6));
+  Utime end = std::min(streams.end(), begin + static_cast<Utime>(seconds * 1e6));
   LocatorResult result;
   Session session(map, rig, options, locating, threads);
   KeyframeBuilder builder(rig, {options.keyframes, options.surface, Keyframe::Encoding::kTimeSurface}, true);
   auto sample = std::lower_bound(streams.imu().begin(), streams.imu().end(), begin,
                                  [](const ImuSample& s, Utime t) { return s.t < t; });
-  for (Utime t = begin; t < end && !result.found; t += kPiece) {
+  for (Utime t = begin; t < end && result.withdrawn.empty(); t += kPiece) {
     const Utime from = t - rig.camera_time_offset, to = from + kPiece;  // in the camera's clock
     const EventArray events = streams.Events(from, to);
     builder.AddEvents(events, events.size() == 0 ? to : std::max(to, events.t.back()));
@@ -110,12 +111,19 @@ LocatorResult RunLocator(const RecordedStreams& streams, const PreparedMap& map,
       const TrackerOutput output = session.Process(InputOf(&*keyframe), &result);
       builder.SetFeedbackFor(keyframe->seq,
                              {static_cast<TrackerFeedback::Mode>(output.mode), output.image_speed, 1});
+      const bool tracking = output.mode == TrackerMode::kTracking;
+      if (result.found) {
+        result.held_s = ToSeconds(keyframe->utime - result.t);
+        if (!tracking) result.withdrawn = output.reason;
+        if (!tracking) break;
+        continue;
+      }
       result.progress = output.reason;
       result.t = keyframe->utime;
       result.after_s = ToSeconds(result.t - begin);
       result.T_map_body = session.tracker().state().T_map_body;
-      result.found = output.mode == TrackerMode::kTracking;
-      if (result.found) break;
+      result.found = tracking;
+      if (tracking) end = std::min(streams.end(), result.t + static_cast<Utime>(hold_s * 1e6));
     }
   }
   result.cpu_s = static_cast<double>(std::clock() - started) / CLOCKS_PER_SEC;

@@ -29,6 +29,8 @@ struct LocatorResult {
   double after_s = 0;  // sensor time from the start to that, or to the end of the part
   Utime t = 0;         // us: of the pose
   SE3 T_map_body;
+  double held_s = 0;                       // that it went on tracking, of those asked for
+  std::string withdrawn;                   // why it stopped doing so; empty: it did not
   std::string progress;                    // what the tracker said last
   int searches = 0;                        // of the whole map
   double search_s = 0;                     // for one of them, wall clock
@@ -38,9 +40,9 @@ struct LocatorResult {
 };
 
 /// Starts a tracker without a pose at `begin` (us) of a recording and lets it run until it tracks, at most
-/// for `seconds`: as the four services do, in one process and without a bus.
+/// for `seconds`, and `hold_s` beyond: as the four services do, in one process and without a bus.
 LocatorResult RunLocator(const RecordedStreams& streams, const PreparedMap& map, const Rig& rig,
                          const PipelineOptions& options, const LocatingTracker::Options& locating,
-                         Utime begin, double seconds, int threads);
+                         Utime begin, double seconds, double hold_s, int threads);
 
 }  // namespace evit::locate

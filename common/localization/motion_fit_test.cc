@@ -1,0 +1,86 @@
+#include "common/localization/motion_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "common/localization/scale_watch.h"
+#include "common/tracking/synthetic_scene.h"
+
+namespace evit {
+namespace {
+
+constexpr Utime kStep = 50'000, kBegin = 1'000'000;
+
+// A hand-held body in a map that is `scale` times too large; poses as noisy as those of single keyframes.
+struct Recorded {
+  std::vector<FollowedPlace::Step> steps;
+  std::vector<ImuSample> imu;
+
+  Recorded(double scale, double seconds, double amplitude = 1) {
+    synthetic::Motion motion;
+    motion.amplitude *= amplitude;
+    std::mt19937 rng(3);
+    std::normal_distribution<double> noise(0, 1);
+    const Utime end = kBegin + static_cast<Utime>(1e6 * seconds);
+    // A biased gyro and accelerometer, and a map that does not stand quite upright.
+    imu = motion.Samples(kBegin, end, {{0.004, -0.006, 0.005}, {0.08, -0.05, 0.06}});
+    const Eigen::Quaterniond tilt = ExpSO3({0.01, -0.01, 0.7});
+    for (Utime t = kBegin; t <= end; t += kStep) {
+      const SE3 truth = motion.State(ToSeconds(t)).T_map_body;
+      const auto random = [&](double sigma) {
+        return Eigen::Vector3d(sigma * noise(rng), sigma * noise(rng), sigma * noise(rng));
+      };
+      steps.push_back(
+          {t, {tilt * truth.q * ExpSO3(random(0.002)), tilt * (scale * truth.p) + random(0.002)}, 8});
+    }
+  }
+};
+
+TEST(MotionFitTest, TellsHowLargeAMapIs) {
+  for (const double scale : {0.67, 1.0, 1.5}) {
+    const Recorded recorded(scale, 2.5);
+    const std::optional<MotionFit> fit = FitMotion(recorded.steps, recorded.imu, 9.81);
+    ASSERT_TRUE(fit);
+    EXPECT_NEAR(fit->scale, scale, 0.1);
+    EXPECT_LT(fit->scale_sigma, 0.12);
+    EXPECT_LT(fit->misfit, 0.006);
+    EXPECT_EQ(fit->Disagrees(), scale != 1);
+  }
+}
+
+TEST(MotionFitTest, WithoutMotionItSaysThatItCannotTell) {
+  const Recorded recorded(1.5, 2, 0.01);
+  const std::optional<MotionFit> fit = FitMotion(recorded.steps, recorded.imu, 9.81);
+  ASSERT_TRUE(fit);
+  EXPECT_GT(fit->scale_sigma, 0.5);
+  EXPECT_FALSE(fit->Disagrees());
+}
+
+TEST(MotionFitTest, AFewPosesSayNothing) {
+  const Recorded recorded(1, 0.2);
+  EXPECT_FALSE(FitMotion(recorded.steps, recorded.imu, 9.81));
+}
+
+ScaleWatch::Verdict Watched(const Recorded& recorded) {
+  ScaleWatch watch(9.81);
+  std::size_t sample = 0;
+  for (const FollowedPlace::Step& step : recorded.steps) {
+    std::vector<ImuSample> imu;
+    for (; sample < recorded.imu.size() && recorded.imu[sample].t <= step.t; ++sample)
+      imu.push_back(recorded.imu[sample]);
+    const ScaleWatch::Verdict verdict = watch.Add(step.t, step.T_map_body, imu);
+    if (verdict != ScaleWatch::Verdict::kOpen) return verdict;
+  }
+  return ScaleWatch::Verdict::kOpen;
+}
+
+TEST(ScaleWatchTest, SaysWhetherTheMapsSizeIsRight) {
+  EXPECT_EQ(Watched(Recorded(1.5, 5)), ScaleWatch::Verdict::kDisagrees);
+  EXPECT_EQ(Watched(Recorded(0.67, 5)), ScaleWatch::Verdict::kDisagrees);
+  EXPECT_EQ(Watched(Recorded(1, 11)), ScaleWatch::Verdict::kAgrees);
+  EXPECT_EQ(Watched(Recorded(1, 0.5)), ScaleWatch::Verdict::kOpen);
+}
+
+}  // namespace
+}  // namespace evit
