@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "common/files/decimal_time.h"
+#include "common/files/pose_columns.h"
 #include "common/files/table_reader.h"
 #include "common/files/table_sample.h"
 #include "common/files/whole_file.h"
@@ -24,20 +25,23 @@ struct Row {
   std::int64_t line;
 };
 
-std::vector<Row> ReadRows(const std::string& path) {
-  const TimeUnit unit = UnitOfStamps(SampleTable(path, kLayout), 0, kSlowest);
+// Rows that are not finite, as of a tracker that saw its target no more, are left out and counted.
+std::vector<Row> ReadRows(const std::string& path, TumSkipped* skipped) {
+  const TableSample sample = SampleTable(path, kLayout);
+  const PoseColumns columns = PoseColumnsOf(sample);
+  const TimeUnit unit = UnitOfStamps(sample, columns.time, kSlowest);
   TableReader table(path, kLayout);
   std::vector<Row> rows;
   while (table.Next()) {
-    Row row;
-    if (!table.Time(&row.t, unit)) table.Fail("the time is not finite");
-    double v[7];
-    for (double& x : v) x = table.Finite();
-    const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+    const PoseRow row = ReadPoseRow(columns, unit, &table);
+    const Eigen::Map<const Eigen::Vector3d> p(row.position.data());
+    const Eigen::Map<const Eigen::Quaterniond> q(row.orientation.data());
+    if (!row.timed || !p.allFinite() || !q.coeffs().allFinite()) {
+      if (skipped->rows++ == 0) skipped->first_line = table.line();
+      continue;
+    }
     if (std::abs(q.norm() - 1) > 1e-2) table.Fail("the quaternion qx qy qz qw is not of length 1");
-    row.pose = {q.normalized(), {v[0], v[1], v[2]}};
-    row.line = table.line();
-    rows.push_back(row);
+    rows.push_back({row.t, {q.normalized(), p}, table.line()});
   }
   return rows;
 }
@@ -48,34 +52,38 @@ std::string TumSkipped::Text(const std::string& path) const {
   if (rows == 0) return "";
   return path + ": " + std::to_string(rows) + (rows == 1 ? " row" : " rows") +
          " skipped, the first in line " + std::to_string(first_line) +
-         ": the time does not increase, or lies far ahead of those that follow";
+         ": a number is not finite, or the time does not increase or lies far ahead of those that follow";
 }
 
 Trajectory ReadTum(const std::string& path, TumSkipped* skipped) {
-  const std::vector<Row> rows = ReadRows(path);
+  TumSkipped out;
+  const std::vector<Row> rows = ReadRows(path, &out);
+  const auto fail = [&](const std::string& what) {
+    throw std::runtime_error(path + ":" + std::to_string(out.first_line) + ": " + what);
+  };
+  if (out.rows > 0 && skipped == nullptr) fail("expected finite numbers: \"" + std::string(kLayout) + "\"");
   if (rows.empty()) throw std::runtime_error(path + ": contains no pose");
   TimeOrderOptions in_order;
   in_order.strict = true;
   in_order.window = 0;  // a row out of order has no place
   TimeOrderCounts counts;
   const std::vector<Row> kept = InTimeOrder(rows, in_order, &counts);
-  TumSkipped out;
-  out.rows = static_cast<std::int64_t>(rows.size() - kept.size());
-  Trajectory trajectory;
-  for (std::size_t k = 0; k < kept.size(); ++k) {
-    if (out.first_line == 0 && out.rows > 0 && kept[k].line != rows[k].line) out.first_line = rows[k].line;
-    trajectory.push_back({kept[k].t, kept[k].pose});
-  }
-  if (out.rows > 0 && out.first_line == 0) out.first_line = rows[kept.size()].line;
-  const bool many = out.rows > 1 && 20 * out.rows > static_cast<std::int64_t>(rows.size());
-  if (out.rows > 0 && (skipped == nullptr || many)) {
-    throw std::runtime_error(path + ":" + std::to_string(out.first_line) + ": the time does not increase" +
-                             (many
-                                  ? ", nor in " + std::to_string(out.rows - 1) + " more of " +
-                                        std::to_string(rows.size()) + " rows; sort the file by time (sort -g)"
-                                  : ""));
+  if (const std::size_t n = rows.size() - kept.size(); n > 0) {
+    std::size_t first = 0;
+    while (first < kept.size() && kept[first].line == rows[first].line) ++first;
+    out.first_line = out.rows == 0 ? rows[first].line : std::min(out.first_line, rows[first].line);
+    out.rows += static_cast<std::int64_t>(n);
+    const bool many = n > 1 && 20 * n > rows.size();
+    if (skipped == nullptr || many) {
+      fail("the time does not increase" +
+           (many ? ", nor in " + std::to_string(n - 1) + " more of " + std::to_string(rows.size()) +
+                       " rows; sort the file by time (sort -g)"
+                 : ""));
+    }
   }
   if (skipped != nullptr) *skipped = out;
+  Trajectory trajectory;
+  for (const Row& row : kept) trajectory.push_back({row.t, row.pose});
   return trajectory;
 }
 

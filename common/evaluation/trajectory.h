@@ -26,10 +26,11 @@ struct TumSkipped {
 };
 
 /// Reads a TUM file (`t[s] x y z qx qy qz qw`; as tolerant as TableReader; times in ns or us are told by
-/// their digits). Stamps are parsed as decimal text, so that no microsecond is lost. Rows out of order are
+/// their digits), or another table whose head names these columns (PoseColumnsOf). Stamps are parsed as
+/// decimal text, so that no microsecond is lost. Rows out of order or with numbers that are not finite are
 /// passed over and told through `skipped`; where that is null, they are an error. Throws std::runtime_error
-/// naming file, line and what is wrong (fields, non-finite, quaternion norm, more than a twentieth of the
-/// rows out of order).
+/// naming file, line and what is wrong (fields, quaternion norm, more than a twentieth of the rows out of
+/// order).
 Trajectory ReadTum(const std::string& path, TumSkipped* skipped = nullptr);
 
 /// One TUM line, stamp with six decimals, pose with nine significant ones. No newline.

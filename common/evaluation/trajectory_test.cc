@@ -70,6 +70,21 @@ TEST_F(TumFile, RepeatedAndBackwardStampsAreNamedAndSkipped) {
   EXPECT_THROW(ReadTum(path_, &skipped), std::runtime_error);
 }
 
+TEST_F(TumFile, RowsThatAreNotFiniteAreSkippedAndTold) {
+  std::ofstream(path_)
+      << "1 0 0 0 0 0 0 1\n2 nan nan nan 0 0 0 1\n3 0 0 0 nan nan nan nan\n4 0 0 0 0 0 0 1\n";
+  TumSkipped skipped;
+  EXPECT_EQ(ReadTum(path_, &skipped).size(), 2U);
+  EXPECT_EQ(skipped.rows, 2);
+  EXPECT_EQ(skipped.first_line, 2);
+}
+
+TEST_F(TumFile, OrderOfTheQuaternionIsReadFromTheHead) {
+  std::ofstream(path_) << "#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], "
+                          "q_RS_y [], q_RS_z []\n1642661138300000000,1,2,3,0.8,0.6,0,0\n";
+  EXPECT_NEAR(ReadTum(path_)[0].pose.q.x(), 0.6, 1e-12);
+}
+
 TEST_F(TumFile, NanosecondsAndExponentsAreTold) {
   std::ofstream(path_) << "#timestamp [ns],x,y,z,qx,qy,qz,qw\n1642661138300000000,1,2,3,0,0,0,1\n";
   EXPECT_EQ(ReadTum(path_)[0].t, 1'642'661'138'300'000);

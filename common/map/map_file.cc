@@ -198,11 +198,11 @@ void RequireMetres(const MapSummary& summary, const std::string& path) {
   // Edges sampled more coarsely than a metre are no semi-dense map; a few stray points far away are no
   // reason, so the spacing is what tells.
   if (summary.n_points < 100 || summary.median_spacing < 0.5) return;
-  char text[200];
+  char text[300];
   std::snprintf(
       text, sizeof text,
-      ": neighbouring points are %.1f m apart and the map is %.0f m wide: it looks like millimetres, not "
-      "metres; convert it with `evit map import --scale 0.001`",
+      ": neighbouring points are %.1f m apart and the map is %.0f m wide: it looks like millimetres or "
+      "centimetres, not metres; convert it with `evit map import --scale 0.001` (0.01 for centimetres)",
       summary.median_spacing, extent);
   throw std::runtime_error(path + text);
 }

@@ -7,6 +7,7 @@
 #include "tests/fuzz/temporary_file.h"
 #include "tools/formats/rpg/rpg_events.h"
 #include "tools/formats/rpg/rpg_tables.h"
+#include "tools/formats/tables/stream_tables.h"
 #include "tools/formats/vector/imu_file.h"
 
 namespace {
@@ -24,7 +25,7 @@ void Read(int table, const std::string& path) {
       evit::formats::ReadRpgImu(path, &dropped);
       break;
     case 3:
-      evit::formats::ReadRpgTruth(path, &dropped);
+      evit::formats::ReadPoseTable(path, &dropped);
       break;
     case 4:
       evit::formats::ReadRpgCamera(path, 240, 180);

@@ -7,6 +7,7 @@
 #include "common/config/rig_file.h"
 #include "tools/formats/rpg/rpg_events.h"
 #include "tools/formats/rpg/rpg_tables.h"
+#include "tools/formats/tables/stream_tables.h"
 
 namespace evit::formats {
 namespace {
@@ -36,7 +37,7 @@ ImportSummary ImportRpg(const RpgImport& job, const std::function<void(double)>&
   rig.T_body_camera = job.T_body_camera;
   rig.T_marker_body = MarkerFromBody(job);
   if (fs::exists(file("groundtruth.txt"))) {
-    streams.truth = ReadRpgTruth(file("groundtruth.txt"), &streams.dropped_truth);
+    streams.truth = ReadPoseTable(file("groundtruth.txt"), &streams.dropped_truth);
     for (StampedPose& s : streams.truth) s.pose = job.T_map_world * s.pose * rig.T_marker_body;
   }
   rig.imu_rate_hz = ImuRate(streams.imu);

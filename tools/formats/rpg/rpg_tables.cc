@@ -9,11 +9,7 @@
 #include "tools/formats/import/imu_columns.h"
 
 namespace evit::formats {
-namespace {
-
-constexpr double kSlowestTruth = 5;  // s between poses
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<ImuSample> ReadRpgImu(const std::string& path, DropCounts* dropped) {
   constexpr char kLayout[] = "t ax ay az gx gy gz";
@@ -27,22 +23,6 @@ std::vector<ImuSample> ReadRpgImu(const std::string& path, DropCounts* dropped) 
     AppendValid(s, finite, &samples, dropped);
   }
   return samples;
-}
-
-Trajectory ReadRpgTruth(const std::string& path, DropCounts* dropped) {
-  constexpr char kLayout[] = "t px py pz qx qy qz qw";
-  const TimeUnit unit = UnitOfStamps(SampleTable(path, kLayout), 0, kSlowestTruth);
-  TableReader lines(path, kLayout);
-  Trajectory truth;
-  while (lines.Next()) {
-    StampedPose s;
-    const bool finite = lines.Time(&s.t, unit);
-    for (double& x : s.pose.p) x = lines.Number();
-    for (double& x : s.pose.q.coeffs()) x = lines.Number();
-    lines.End();
-    AppendPose(s, finite, &truth, dropped);
-  }
-  return truth;
 }
 
 Camera ReadRpgCamera(const std::string& path, int width, int height) {

@@ -16,9 +16,6 @@ namespace evit::formats {
 /// imu.txt: `t ax ay az gx gy gz` (s, m/s^2, rad/s).
 std::vector<ImuSample> ReadRpgImu(const std::string& path, DropCounts* dropped);
 
-/// groundtruth.txt: `t px py pz qx qy qz qw`, a pose in the world.
-Trajectory ReadRpgTruth(const std::string& path, DropCounts* dropped);
-
 /// calib.txt: `fx fy cx cy k1 k2 p1 p2 k3`.
 Camera ReadRpgCamera(const std::string& path, int width, int height);
 

@@ -6,13 +6,14 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "common/files/pose_columns.h"
 #include "common/files/table_reader.h"
 #include "common/files/table_sample.h"
 
 namespace evit::formats {
 namespace {
 
-constexpr double kSlowestImu = 0.1, kSlowestPose = 2;  // s between two rows
+constexpr double kSlowestImu = 0.1, kSlowestPose = 5;  // s between two rows
 constexpr char kImuLayout[] = "t gx gy gz ax ay az (or ax ay az gx gy gz)";
 constexpr char kPoseLayout[] = "t x y z qx qy qz qw";
 
@@ -123,18 +124,16 @@ Trajectory ReadPoseTable(const std::string& path, DropCounts* dropped) {
   const TableSample sample = SampleTable(path, kPoseLayout);
   if (sample.rows.empty() || sample.rows.front().size() < 8)
     throw std::runtime_error(path + ": is no trajectory; expected " + kPoseLayout);
-  const TimeUnit unit = UnitOfStamps(sample, 0, kSlowestPose);
-  const std::vector<std::string> names = ColumnNames(sample);
-  const bool w_first = names.size() >= 8 && NamesAny(names[4], {"w"});
+  const PoseColumns columns = PoseColumnsOf(sample);
+  const TimeUnit unit = UnitOfStamps(sample, columns.time, kSlowestPose);
   TableReader rows(path, kPoseLayout);
   Trajectory poses;
   while (rows.Next()) {
-    StampedPose s;
-    const bool finite = rows.Time(&s.t, unit);
-    for (int k = 0; k < 3; ++k) s.pose.p[k] = rows.Number();
-    for (int k = 0; k < 4; ++k)
-      s.pose.q.coeffs()[w_first ? (k + 3) % 4 : k] = rows.Number();  // both in x y z w
-    AppendPose(s, finite, &poses, dropped);
+    const PoseRow row = ReadPoseRow(columns, unit, &rows);
+    AppendPose({row.t,
+                {Eigen::Map<const Eigen::Quaterniond>(row.orientation.data()),
+                 Eigen::Map<const Eigen::Vector3d>(row.position.data())}},
+               row.timed, &poses, dropped);
   }
   return poses;
 }

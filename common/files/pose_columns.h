@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "common/files/table_reader.h"
+#include "common/files/table_sample.h"
+
+namespace evit {
+
+/// Where a table of poses has its columns.
+struct PoseColumns {
+  std::size_t time = 0;
+  std::array<std::size_t, 3> position = {1, 2, 3};        // x y z
+  std::array<std::size_t, 4> orientation = {4, 5, 6, 7};  // x y z w
+};
+
+/// As the head names them, e.g. "tx ... qw", EuRoC's "p_RS_R_x [m] ... q_RS_w []" (w first), and
+/// "field.pose.position.x ..." of `rostopic echo -p`; the TUM format's order where there is no head, or one that
+/// does not name all eight.
+PoseColumns PoseColumnsOf(const TableSample& sample);
+
+struct PoseRow {
+  bool timed = false;  // the time is finite
+  Utime t = 0;
+  std::array<double, 3> position{};     // not checked: may be nan
+  std::array<double, 4> orientation{};  // x y z w, of any length
+};
+
+/// The row that `table` stands at, as far as its last column of a pose. Throws as TableReader does.
+PoseRow ReadPoseRow(const PoseColumns& columns, TimeUnit unit, TableReader* table);
+
+}  // namespace evit
