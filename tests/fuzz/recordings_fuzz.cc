@@ -7,6 +7,7 @@
 #include "tools/feed/feed_records.h"
 #include "tools/formats/aedat/aedat4_recording.h"
 #include "tools/formats/aedat/aedat_recording.h"
+#include "tools/formats/hdf5/ecf_chunk.h"
 #include "tools/formats/prophesee/raw_recording.h"
 #include "tools/formats/ros/message_types.h"
 #include "tools/formats/ros/ros_recording.h"
@@ -56,6 +57,12 @@ void ReadRecords(const std::uint8_t* data, std::size_t size) {
   parser.Parse(data + first, size - first, &events, &imu);
 }
 
+// The only HDF5 filter that is ours.
+void ReadEcf(const std::uint8_t* data, std::size_t size) {
+  std::vector<H5Event> events(EcfEvents(data, size));
+  DecodeEcf(data, size, events.data());
+}
+
 void Read(int which, const std::uint8_t* data, std::size_t size) {
   const evit::fuzz::TemporaryFile file(data, size);
   DropCounts dropped;
@@ -85,6 +92,8 @@ void Read(int which, const std::uint8_t* data, std::size_t size) {
     case 7:
       ReadPoseTable(file.path(), &dropped);
       return;
+    case 9:
+      return ReadEcf(data, size);
     default:
       ReadRecords(data, size);
   }
@@ -95,7 +104,7 @@ void Read(int which, const std::uint8_t* data, std::size_t size) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   try {
-    Read(data[0] % 9, data + 1, size - 1);
+    Read(data[0] % 10, data + 1, size - 1);
   } catch (const std::runtime_error&) {
   }
   return 0;

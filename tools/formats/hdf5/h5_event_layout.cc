@@ -19,6 +19,31 @@ std::string AnyOf(const std::map<std::string, std::string>& members, const std::
   return "";
 }
 
+// Names in lower case, as they stand in a group or in compounds, to what they mean; false: no events.
+bool FindColumns(const std::map<std::string, std::string>& members, H5EventLayout* layout) {
+  layout->x = AnyOf(members, {"x", "xs"});
+  layout->y = AnyOf(members, {"y", "ys"});
+  layout->t = AnyOf(members, {"t", "ts", "timestamps", "timestamp", "time"});
+  layout->p = AnyOf(members, {"p", "ps", "pol", "polarity", "polarities"});
+  return !layout->x.empty() && !layout->y.empty() && !layout->t.empty() && !layout->p.empty();
+}
+
+// What Prophesee's files hold can be read at once; others member by member. EXT_TRIGGER/events has no pixels.
+bool FindMembers(const H5File& file, const H5Rows& rows, H5EventLayout* layout) {
+  std::map<std::string, std::string> members;
+  for (const std::string& name : rows.members()) members[name] = rows.name() + ":" + name;
+  if (!FindColumns(members, layout)) return false;
+  const bool usual = members.count("x") + members.count("y") + members.count("p") + members.count("t") == 4 &&
+                     file.Open(layout->t).is_integer() && file.Open(layout->p).is_signed() &&
+                     file.Open(layout->x).bytes() <= 2 && file.Open(layout->y).bytes() <= 2 &&
+                     !file.Open(layout->x).is_signed();
+  if (!usual) return true;
+  *layout = {};
+  layout->kind = H5EventLayout::Kind::kCompound;
+  layout->t = rows.name();
+  return true;
+}
+
 }  // namespace
 
 std::vector<H5EventLayout> FindEvents(const H5File& file) {
@@ -32,11 +57,7 @@ std::vector<H5EventLayout> FindEvents(const H5File& file) {
   for (const auto& [group, members] : groups) {
     H5EventLayout layout;
     layout.group = group;
-    layout.x = AnyOf(members, {"x", "xs"});
-    layout.y = AnyOf(members, {"y", "ys"});
-    layout.t = AnyOf(members, {"t", "ts", "timestamps"});
-    layout.p = AnyOf(members, {"p", "ps", "pol", "polarity"});
-    if (layout.x.empty() || layout.y.empty() || layout.t.empty() || layout.p.empty()) continue;
+    if (!FindColumns(members, &layout)) continue;
     const std::size_t slash = group.empty() ? std::string::npos : group.rfind('/', group.size() - 2);
     const std::string parent = slash == std::string::npos ? "" : group.substr(0, slash + 1);
     for (const std::string& name : {group + "t_offset", parent + "t_offset"}) {
@@ -45,18 +66,17 @@ std::vector<H5EventLayout> FindEvents(const H5File& file) {
     found.push_back(layout);
   }
   for (const std::string& dataset : file.datasets()) {
+    const H5Rows rows = file.Open(dataset);
     H5EventLayout layout;
-    layout.t = dataset;
-    layout.group = dataset;
-    if (dataset == "CD/events") {
-      layout.kind = H5EventLayout::Kind::kCompound;
-    } else if (dataset == "events" || EndsWith(dataset, "/events")) {
-      const H5Rows rows = file.Open(dataset);
-      layout.kind = rows.is_compound() ? H5EventLayout::Kind::kCompound : H5EventLayout::Kind::kRows;
-      if (!rows.is_compound() && rows.columns() != 4) continue;
+    if (rows.is_compound()) {
+      if (rows.columns() != 1 || !FindMembers(file, rows, &layout)) continue;
+    } else if ((dataset == "events" || EndsWith(dataset, "/events")) && rows.columns() == 4) {
+      layout.kind = H5EventLayout::Kind::kRows;
+      layout.t = dataset;
     } else {
       continue;
     }
+    layout.group = dataset;
     found.push_back(layout);
   }
   return found;

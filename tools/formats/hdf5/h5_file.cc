@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "tools/formats/hdf5/h5_filters.h"
+#include "tools/formats/vector/h5_chunk.h"
 #include "tools/formats/vector/h5_handle.h"
 
 namespace evit::formats {
@@ -16,7 +17,7 @@ namespace {
 constexpr hsize_t kMaxRead = hsize_t{1} << 31;  // bytes at a time
 constexpr std::size_t kChunkCache = 64U
                                     << 20;  // bytes: a chunk is decompressed once, not for each part of it
-constexpr std::size_t kMaxDatasets = 10'000;
+constexpr std::size_t kMaxDatasets = 10'000, kMaxColumns = 1 << 24;
 
 template <typename Number>
 hid_t MemoryType();
@@ -40,15 +41,15 @@ hid_t MemoryType<double>() {
 }  // namespace
 
 struct H5Rows::Impl {
-  std::shared_ptr<void> file;  // stays open as long as this is used
-  std::string path, name;
+  std::shared_ptr<void> file;      // stays open as long as this is used
+  std::string path, name, member;  // of a compound; empty: none
   H5Handle dataset;
   std::vector<hsize_t> shape;
   std::size_t columns = 1, chunk_rows = 1, bytes = 0;
   H5T_class_t type = H5T_NO_CLASS;
   bool is_signed = false;
 
-  void ReadInto(std::size_t begin, std::size_t n, hid_t memory_type, void* out) const;
+  void ReadInto(std::size_t begin, std::size_t n, hid_t number, void* out) const;
   std::string WhyUnreadable() const;
 };
 
@@ -65,14 +66,21 @@ std::string H5Rows::Impl::WhyUnreadable() const {
   return "cannot be read: the file is damaged; download it again";
 }
 
-void H5Rows::Impl::ReadInto(std::size_t begin, std::size_t n, hid_t memory_type, void* out) const {
+void H5Rows::Impl::ReadInto(std::size_t begin, std::size_t n, hid_t number, void* out) const {
+  H5Handle only_member;
+  hid_t memory_type = number;
+  if (!member.empty()) {
+    only_member = H5Handle(H5Tcreate(H5T_COMPOUND, H5Tget_size(number)), H5Tclose);
+    H5Tinsert(only_member.get(), member.c_str(), 0, number);
+    memory_type = only_member.get();
+  }
   std::vector<hsize_t> start(shape.size(), 0), count = shape;
   start[0] = begin;
   count[0] = n;
   const H5Handle source(H5Dget_space(dataset.get()), H5Sclose),
       target(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
   H5Sselect_hyperslab(source.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-  if (H5Dread(dataset.get(), memory_type, target.get(), source.get(), H5P_DEFAULT, out) < 0)
+  if (ReadChunks(dataset.get(), memory_type, target.get(), source.get(), out) < 0)
     throw std::runtime_error(path + ": dataset " + name + " " + WhyUnreadable());
 }
 
@@ -83,6 +91,17 @@ std::size_t H5Rows::chunk_rows() const { return impl_->chunk_rows; }
 bool H5Rows::is_integer() const { return impl_->type == H5T_INTEGER || impl_->type == H5T_ENUM; }
 bool H5Rows::is_signed() const { return impl_->is_signed; }
 bool H5Rows::is_compound() const { return impl_->type == H5T_COMPOUND; }
+std::vector<std::string> H5Rows::members() const {
+  std::vector<std::string> names;
+  const H5Handle type(H5Dget_type(impl_->dataset.get()), H5Tclose);
+  const int n = is_compound() ? H5Tget_nmembers(type.get()) : 0;
+  for (int k = 0; k < n; ++k) {
+    char* name = H5Tget_member_name(type.get(), static_cast<unsigned>(k));
+    names.emplace_back(name == nullptr ? "" : name);
+    H5free_memory(name);
+  }
+  return names;
+}
 std::size_t H5Rows::bytes() const { return impl_->bytes; }
 void H5Rows::Fail(const std::string& what) const {
   throw std::runtime_error(impl_->path + ": " + impl_->name + ": " + what);
@@ -90,6 +109,7 @@ void H5Rows::Fail(const std::string& what) const {
 
 template <typename Number>
 void H5Rows::Read(std::size_t begin, std::size_t n, std::vector<Number>* out) const {
+  if (columns() == 0 || columns() > kMaxColumns) Fail("has no rows of numbers");
   if (n * columns() * sizeof(Number) > kMaxRead) Fail("is too large to be read at once");
   if (impl_->type != H5T_INTEGER && impl_->type != H5T_ENUM && impl_->type != H5T_FLOAT)
     Fail("does not hold numbers");
@@ -132,32 +152,40 @@ bool H5File::Has(const std::string& name) const {
   return std::find(datasets_.begin(), datasets_.end(), name) != datasets_.end();
 }
 
-H5Rows H5File::Open(const std::string& name) const {
+H5Rows H5File::Open(const std::string& requested) const {
+  const std::size_t colon = Has(requested) ? std::string::npos : requested.rfind(':');
+  const std::string name = requested.substr(0, colon);
   const H5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
                       H5Fclose);  // the same file once more
   auto rows = std::make_shared<H5Rows::Impl>();
   rows->file = file_;
   rows->path = path_;
-  rows->name = name;
+  rows->name = requested;
+  if (colon != std::string::npos) rows->member = requested.substr(colon + 1);
   const H5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   H5Pset_chunk_cache(access.get(), 521, kChunkCache, 1);
   rows->dataset = H5Handle(H5Dopen2(file.get(), name.c_str(), access.get()), H5Dclose);
   if (!rows->dataset.ok()) throw std::runtime_error(path_ + ": dataset " + name + " is missing");
   const H5Handle space(H5Dget_space(rows->dataset.get()), H5Sclose),
-      type(H5Dget_type(rows->dataset.get()), H5Tclose),
       properties(H5Dget_create_plist(rows->dataset.get()), H5Pclose);
   const int rank = std::max(0, H5Sget_simple_extent_ndims(space.get()));
   rows->shape.resize(static_cast<std::size_t>(std::max(1, rank)), 1);
   if (rank > 0) H5Sget_simple_extent_dims(space.get(), rows->shape.data(), nullptr);
   for (std::size_t k = 1; k < rows->shape.size(); ++k) {
-    if (rows->shape[k] == 0 || rows->shape[k] > 4096)
-      throw std::runtime_error(path_ + ": dataset " + name + " has no rows of numbers");
-    rows->columns *= rows->shape[k];
+    rows->columns *= std::min<std::size_t>(rows->shape[k], kMaxColumns + 1);
+    rows->columns = std::min(rows->columns, kMaxColumns + 1);
   }
   if (H5Pget_layout(properties.get()) == H5D_CHUNKED) {
     std::vector<hsize_t> chunk(rows->shape.size(), 1);
     H5Pget_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data());
     rows->chunk_rows = std::max<hsize_t>(1, chunk[0]);
+  }
+  H5Handle type(H5Dget_type(rows->dataset.get()), H5Tclose);
+  if (!rows->member.empty()) {
+    const int index =
+        H5Tget_class(type.get()) == H5T_COMPOUND ? H5Tget_member_index(type.get(), rows->member.c_str()) : -1;
+    if (index < 0) throw std::runtime_error(path_ + ": dataset " + name + " has no member " + rows->member);
+    type = H5Handle(H5Tget_member_type(type.get(), static_cast<unsigned>(index)), H5Tclose);
   }
   rows->type = H5Tget_class(type.get());
   rows->bytes = H5Tget_size(type.get());

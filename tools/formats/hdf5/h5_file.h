@@ -21,7 +21,8 @@ class H5Rows {
   bool is_integer() const;
   bool is_signed() const;
   bool is_compound() const;
-  std::size_t bytes() const;  // of one number
+  std::vector<std::string> members() const;  // of a compound, by their names
+  std::size_t bytes() const;                 // of one number
 
   /// Rows [begin, begin + n) as ..., of all columns; throws std::runtime_error naming file and dataset, with
   /// the remedy where a filter is missing. Number: uint8_t, uint16_t, int64_t, double.
@@ -52,8 +53,8 @@ class H5File {
   /// Throws std::runtime_error naming the file where it is not whole.
   explicit H5File(const std::string& path);
   bool Has(const std::string& name) const;
-  /// Throws where there is no such dataset.
-  H5Rows Open(const std::string& name) const;
+  /// A dataset, or one member of compounds: DATASET:MEMBER. Throws where there is no such.
+  H5Rows Open(const std::string& requested) const;
   /// All datasets, by their paths ("events/x").
   const std::vector<std::string>& datasets() const { return datasets_; }
   /// A text of the file itself (attribute); empty where there is none.

@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "tools/formats/hdf5/ecf_chunk.h"
+#include "tools/formats/vector/h5_chunk.h"
 #include "tools/formats/vector/zstd_filter.h"
 
 namespace evit::formats {
@@ -19,19 +21,6 @@ namespace {
 constexpr H5Z_filter_t kLzf = 32000, kBlosc = 32001, kLz4 = 32004, kEcf = 0x8ECF;
 constexpr std::size_t kMaxChunk = std::size_t{1}
                                   << 30;  // bytes; a forged length must not decide what is reserved
-
-// HDF5's contract: 0 is failure; the buffer is replaced by one from malloc.
-std::size_t Replace(void* made, std::size_t n, std::size_t capacity, std::size_t* buffer_size,
-                    void** buffer) {
-  if (n == 0) {
-    std::free(made);
-    return 0;
-  }
-  std::free(*buffer);
-  *buffer = made;
-  *buffer_size = capacity;
-  return n;
-}
 
 std::uint64_t BigEndian(const std::uint8_t* data, int bytes) {
   std::uint64_t value = 0;
@@ -49,7 +38,7 @@ std::size_t Lzf(unsigned flags, std::size_t n_values, const unsigned* values, st
     if (out == nullptr) return 0;
     const unsigned n =
         lzf_decompress(*buffer, static_cast<unsigned>(n_bytes), out, static_cast<unsigned>(capacity));
-    if (n > 0) return Replace(out, n, capacity, buffer_size, buffer);
+    if (n > 0) return ReplaceChunk(out, n, capacity, buffer_size, buffer);
     std::free(out);
     if (errno != E2BIG) return 0;
   }
@@ -64,7 +53,7 @@ std::size_t Blosc(unsigned flags, std::size_t /*n_values*/, const unsigned* /*va
   void* out = std::malloc(size);
   if (out == nullptr) return 0;
   const int n = blosc_decompress_ctx(*buffer, out, size, 1);
-  return Replace(out, n > 0 ? static_cast<std::size_t>(n) : 0, size, buffer_size, buffer);
+  return ReplaceChunk(out, n > 0 ? static_cast<std::size_t>(n) : 0, size, buffer_size, buffer);
 }
 
 // The plug-in's frame: size of the whole (8 bytes, big-endian), of a block (4); then blocks, each with its
@@ -92,11 +81,22 @@ std::size_t Lz4(unsigned flags, std::size_t /*n_values*/, const unsigned* /*valu
     at += packed;
     n += plain;
   }
-  return Replace(out, n == size ? n : 0, size, buffer_size, buffer);
+  return ReplaceChunk(out, n == size ? n : 0, size, buffer_size, buffer);
+}
+
+// Ours even where the vendor's plug-in is installed, which trusts the lengths in the file.
+std::size_t Ecf(unsigned flags, std::size_t /*n_values*/, const unsigned* /*values*/, std::size_t n_bytes,
+                std::size_t* buffer_size, void** buffer) {
+  const auto* in = static_cast<const std::uint8_t*>(*buffer);
+  const std::size_t size = EcfEvents(in, n_bytes) * sizeof(H5Event);
+  if ((flags & H5Z_FLAG_REVERSE) == 0 || size == 0) return 0;
+  void* out = std::calloc(size, 1);
+  if (out == nullptr) return 0;
+  return ReplaceChunk(out, DecodeEcf(in, n_bytes, static_cast<H5Event*>(out)) ? size : 0, size, buffer_size,
+                      buffer);
 }
 
 void Register(H5Z_filter_t id, const char* name, H5Z_func_t function) {
-  if (H5Zfilter_avail(id) > 0) return;
   const H5Z_class2_t filter{H5Z_CLASS_T_VERS, id, 1, 1, name, nullptr, nullptr, function};
   H5Zregister(&filter);
 }
@@ -104,18 +104,18 @@ void Register(H5Z_filter_t id, const char* name, H5Z_func_t function) {
 }  // namespace
 
 void RegisterFilters() {
-  RegisterZstdFilter();
-  Register(kLzf, "LZF", Lzf);
-  Register(kBlosc, "Blosc", Blosc);
-  Register(kLz4, "LZ4", Lz4);
+  static const bool kDone = [] {
+    RegisterZstdFilter();
+    Register(kLzf, "LZF", Lzf);
+    Register(kBlosc, "Blosc", Blosc);
+    Register(kLz4, "LZ4", Lz4);
+    Register(kEcf, "ECF", Ecf);
+    return true;
+  }();
+  static_cast<void>(kDone);
 }
 
 std::string FilterRemedy(int filter) {
-  if (filter == kEcf) {
-    return "Prophesee's ECF filter (0x8ECF), whose format is not published: convert the file to RAW, or "
-           "install Prophesee's "
-           "plug-in (github.com/prophesee-ai/hdf5_ecf) and set HDF5_PLUGIN_PATH to its folder";
-  }
   return "filter " + std::to_string(filter) +
          ": install its plug-in (Debian: hdf5-filter-plugin) and set HDF5_PLUGIN_PATH to its folder, or "
          "write the file again "

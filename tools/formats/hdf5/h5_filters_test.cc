@@ -78,18 +78,30 @@ TEST(H5Filters, CompressedDatasetsAreReadAndDamagedOnesRefused) {
   }
 }
 
+TEST(H5Filters, AChunkThatIsWholeButTooShortIsRefused) {
+  const TemporaryFolder folder("h5_filters");
+  RegisterFilters();
+  const std::vector<std::int64_t> few(100, 7);
+  const std::string path = folder.File("a.h5");
+  {
+    H5Maker file(path);
+    file.Put("t", H5T_STD_I64LE, H5T_NATIVE_INT64, nullptr, {20'000}, 32004,
+             Lz4Frame(reinterpret_cast<const char*>(few.data()), 800, 800), {0});
+  }
+  const H5File file(path);
+  EXPECT_THROW(file.Open("t").ReadAll<std::int64_t>(), std::runtime_error);
+}
+
 TEST(H5Filters, AMissingFilterIsNamedWithItsRemedy) {
   const TemporaryFolder folder("h5_filters");
-  for (const auto& [filter, remedy] : {std::pair(0x8ECF, "HDF5_PLUGIN_PATH"), std::pair(32023, "h5repack")}) {
-    const std::string path = folder.File("a.h5");
-    {
-      H5Maker file(path);
-      file.Put("t", H5T_STD_I64LE, H5T_NATIVE_INT64, nullptr, {4}, filter, "12345678");
-    }
-    const H5File file(path);
-    EXPECT_THAT([&] { file.Open("t").ReadAll<std::int64_t>(); },
-                ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("a.h5"), HasSubstr(remedy))));
+  const std::string path = folder.File("a.h5");
+  {
+    H5Maker file(path);
+    file.Put("t", H5T_STD_I64LE, H5T_NATIVE_INT64, nullptr, {4}, 32023, "12345678");
   }
+  const H5File file(path);
+  EXPECT_THAT([&] { file.Open("t").ReadAll<std::int64_t>(); },
+              ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("a.h5"), HasSubstr("h5repack"))));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/helpers/all_events.h"
+#include "tests/helpers/ecf_encoder.h"
 #include "tests/helpers/h5_files.h"
 #include "tests/helpers/temporary_folder.h"
 
@@ -16,6 +17,8 @@ using ::testing::ThrowsMessage;
 
 using Integers = std::vector<std::int64_t>;
 using Doubles = std::vector<double>;
+
+const std::vector<H5Event> kThree = {{0, 479, 1, 10}, {639, 0, 0, 11}, {2, 3, 1, 12}};
 
 void PutColumns(H5Maker* file, const std::string& group, hid_t t_type, const Integers& t, hid_t p_type,
                 const Integers& p) {
@@ -162,24 +165,65 @@ TEST_F(H5RecordingTest, MvsecsRowsImuAndTruth) {
   EXPECT_EQ(streams.truth[0].pose.p, Eigen::Vector3d(5, 6, 7));
 }
 
+// As the vendor's library writes it: events of 16 bytes, packed by ECF or not; triggers beside them; text.
+void PutPropheseesFile(const std::string& path, int filter, const std::string& chunk) {
+  H5Maker file(path);
+  const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof(H5Event)), trigger = H5Tcreate(H5T_COMPOUND, 24);
+  H5Tinsert(type, "x", HOFFSET(H5Event, x), H5T_NATIVE_UINT16);
+  H5Tinsert(type, "y", HOFFSET(H5Event, y), H5T_NATIVE_UINT16);
+  H5Tinsert(type, "p", HOFFSET(H5Event, p), H5T_NATIVE_INT16);
+  H5Tinsert(type, "t", HOFFSET(H5Event, t), H5T_NATIVE_INT64);
+  H5Tinsert(trigger, "p", 0, H5T_NATIVE_INT16);
+  H5Tinsert(trigger, "t", 8, H5T_NATIVE_INT64);
+  H5Tinsert(trigger, "id", 16, H5T_NATIVE_INT16);
+  file.Put("CD/events", type, type, kThree.data(), {3}, filter, chunk);
+  file.Put("EXT_TRIGGER/events", trigger, trigger, std::string(24, '\0').data(), {1});
+  const hid_t text = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+  H5Tset_size(text, 8);
+  const hid_t attribute = H5Acreate2(file.file(), "geometry", text, space, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(attribute, text, "1280x720");
+  H5Aclose(attribute), H5Sclose(space), H5Tclose(text), H5Tclose(type), H5Tclose(trigger);
+}
+
 TEST_F(H5RecordingTest, PropheseesCompounds) {
-  {
-    H5Maker file(path_);
-    const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof(H5Event));
-    H5Tinsert(type, "x", HOFFSET(H5Event, x), H5T_NATIVE_UINT16);
-    H5Tinsert(type, "y", HOFFSET(H5Event, y), H5T_NATIVE_UINT16);
-    H5Tinsert(type, "p", HOFFSET(H5Event, p), H5T_NATIVE_INT16);
-    H5Tinsert(type, "t", HOFFSET(H5Event, t), H5T_NATIVE_INT64);
-    const std::vector<H5Event> events = {{0, 479, 1, 10}, {639, 0, 0, 11}, {2, 3, 1, 12}};
-    file.Put("CD/events", type, type, events.data(), {3});
-    const hid_t text = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
-    H5Tset_size(text, 8);
-    const hid_t attribute = H5Acreate2(file.file(), "geometry", text, space, H5P_DEFAULT, H5P_DEFAULT);
-    H5Awrite(attribute, text, "1280x720");
-    H5Aclose(attribute), H5Sclose(space), H5Tclose(text), H5Tclose(type);
-  }
+  PutPropheseesFile(path_, 0, "");
   ExpectEvents({path_}, {10, 11, 12});
   EXPECT_EQ(H5Recording({path_}, "").info().width, 1280);
+}
+
+TEST_F(H5RecordingTest, PropheseesCompoundsInEcf) {
+  using Way = EcfEncoder::Way;
+  for (const Way way : {Way::kMasks, Way::kColumnsPacked, Way::kAllPacked}) {
+    const std::string chunk = EcfEncoder::Encode(kThree, way);
+    PutPropheseesFile(path_, 0x8ECF, chunk);
+    ExpectEvents({path_}, {10, 11, 12});
+    PutPropheseesFile(path_, 0x8ECF, chunk.substr(0, chunk.size() - 1));
+    ExpectRefused("damaged");
+    PutPropheseesFile(path_, 0x8ECF, EcfEncoder::Encode({kThree[0], kThree[1]}, way));  // HDF5 would read on
+    ExpectRefused("damaged");
+  }
+}
+
+// Structured arrays of numpy, as h5py writes them.
+TEST_F(H5RecordingTest, CompoundsOfAnyNameAndType) {
+  struct Event {
+    double timestamp;
+    std::int32_t x, y;
+    std::int8_t polarity;
+  };
+  {
+    H5Maker file(path_);
+    const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof(Event));
+    H5Tinsert(type, "timestamp", HOFFSET(Event, timestamp), H5T_NATIVE_DOUBLE);
+    H5Tinsert(type, "x", HOFFSET(Event, x), H5T_NATIVE_INT32);
+    H5Tinsert(type, "y", HOFFSET(Event, y), H5T_NATIVE_INT32);
+    H5Tinsert(type, "polarity", HOFFSET(Event, polarity), H5T_NATIVE_INT8);
+    const std::vector<Event> events = {
+        {1.5e9 + 0.25, 0, 479, 1}, {1.5e9 + 0.250001, 639, 0, -1}, {1.5e9 + 0.5, 2, 3, 1}};
+    file.Put("recording/data", type, type, events.data(), {3});
+    H5Tclose(type);
+  }
+  ExpectEvents({path_}, {1'500'000'000'250'000, 1'500'000'000'250'001, 1'500'000'000'500'000});
 }
 
 TEST_F(H5RecordingTest, AFileWithoutEventsListsWhatItHas) {

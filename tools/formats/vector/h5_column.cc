@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tools/formats/vector/h5_chunk.h"
+
 namespace evit::formats {
 namespace {
 
@@ -68,7 +70,7 @@ void H5Column::ReadAs(hid_t type, std::size_t begin, std::size_t n, void* out) c
   herr_t selected = 0;
   if (H5Sget_simple_extent_ndims(source.get()) == 1)
     selected = H5Sselect_hyperslab(source.get(), H5S_SELECT_SET, &first, nullptr, &count, nullptr);
-  if (selected < 0 || H5Dread(dataset_.get(), type, target.get(), source.get(), H5P_DEFAULT, out) < 0)
+  if (selected < 0 || ReadChunks(dataset_.get(), type, target.get(), source.get(), out) < 0)
     Fail("cannot be read at entry " + std::to_string(begin) + ": the file is damaged; download it again");
 }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/map/map_formats.h"
+#include "tools/formats/vector/h5_chunk.h"
 
 namespace evit::formats {
 namespace {
@@ -14,23 +15,16 @@ namespace {
 // Largest chunk that is accepted: a forged number must not decide how much memory is reserved.
 constexpr std::size_t kMaxChunk = std::size_t{1} << 30;
 
-// HDF5's contract: 0 is failure; the buffer is replaced by one from malloc. h5py's third value is the chunk's
-// size.
+// h5py's third value is the chunk's size.
 std::size_t Filter(unsigned flags, std::size_t n_values, const unsigned* values, std::size_t n_bytes,
                    std::size_t* buffer_size, void** buffer) {
   const std::size_t size = n_values > 2 ? values[2] : 0;
   if ((flags & H5Z_FLAG_REVERSE) == 0 || size == 0 || size > kMaxChunk) return 0;
   void* out = std::malloc(size);
   if (out == nullptr) return 0;
-  if (!DecompressLzf(static_cast<const std::uint8_t*>(*buffer), n_bytes, static_cast<std::uint8_t*>(out),
-                     size)) {
-    std::free(out);
-    return 0;
-  }
-  std::free(*buffer);
-  *buffer = out;
-  *buffer_size = size;
-  return size;
+  const bool whole = DecompressLzf(static_cast<const std::uint8_t*>(*buffer), n_bytes,
+                                   static_cast<std::uint8_t*>(out), size);
+  return ReplaceChunk(out, whole ? size : 0, size, buffer_size, buffer);
 }
 
 }  // namespace

@@ -6,13 +6,14 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "tools/formats/vector/h5_chunk.h"
+
 namespace evit::formats {
 namespace {
 
 // Largest chunk that is accepted: a forged frame header must not decide how much memory is reserved.
 constexpr unsigned long long kMaxChunk = 1ULL << 30;
 
-// HDF5's contract: 0 is failure; the buffer is replaced by one from malloc.
 std::size_t Filter(unsigned flags, std::size_t n_values, const unsigned* values, std::size_t n_bytes,
                    std::size_t* buffer_size, void** buffer) {
   const bool decompress = (flags & H5Z_FLAG_REVERSE) != 0;
@@ -24,14 +25,7 @@ std::size_t Filter(unsigned flags, std::size_t n_values, const unsigned* values,
   const int level = n_values > 0 ? static_cast<int>(values[0]) : 3;
   const std::size_t n = decompress ? ZSTD_decompress(out, capacity, *buffer, n_bytes)
                                    : ZSTD_compress(out, capacity, *buffer, n_bytes, level);
-  if (ZSTD_isError(n) != 0) {
-    std::free(out);
-    return 0;
-  }
-  std::free(*buffer);
-  *buffer = out;
-  *buffer_size = capacity;
-  return n;
+  return ReplaceChunk(out, ZSTD_isError(n) != 0 ? 0 : n, capacity, buffer_size, buffer);
 }
 
 }  // namespace
