@@ -19,6 +19,7 @@ struct Channels {
   std::string map_points = prefix + "MAP_POINTS";
   std::string place_query = prefix + "PLACE_QUERY";
   std::string places = prefix + "PLACES";
+  std::string place_prior = prefix + "PLACE_PRIOR";
   std::string window_state = prefix + "WINDOW_STATE";
   std::string body_pose = prefix + "BODY_POSE";
   std::string tracker_mode = prefix + "TRACKER_MODE";

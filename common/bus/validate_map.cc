@@ -27,6 +27,17 @@ void CheckUnit(const char* name, const std::vector<double>& q, FieldChecks* chec
   check->Unit(name, numbers);
 }
 
+// Fields of what is known of a place.
+template <typename Message>
+void CheckPrior(const Message& m, FieldChecks* check) {
+  check->Finite("near_position", m.near_position)
+      .Finite("near_radius", m.near_radius)
+      .Finite("height_low", m.height_low)
+      .Finite("height_high", m.height_high)
+      .Finite("yaw", m.yaw)
+      .Finite("yaw_tolerance", m.yaw_tolerance);
+}
+
 }  // namespace
 
 bool Validate(const map_points_t& m, std::string* why) {
@@ -69,6 +80,12 @@ bool Validate(const map_view_t& m, std::string* why) {
       .ok();
 }
 
+bool Validate(const place_prior_t& m, std::string* why) {
+  FieldChecks check(why);
+  CheckPrior(m, &check.Stamp(m));
+  return check.ok();
+}
+
 bool Validate(const place_query_t& m, std::string* why) {
   FieldChecks check(why);
   check.Stamp(m).Pose(m);
@@ -78,15 +95,10 @@ bool Validate(const place_query_t& m, std::string* why) {
       .That(std::abs(up - 1) <= 1e-3, "up is not a unit vector")  // false for NaN
       .That(m.everywhere == 0 || m.everywhere == 1, "everywhere is neither 0 nor 1")
       .That(m.attempt >= 0 && m.attempt < kMaxSequence, "attempt is out of range")
-      .Finite("near_position", m.near_position)
-      .Finite("near_radius", m.near_radius)
-      .Finite("height_low", m.height_low)
-      .Finite("height_high", m.height_high)
-      .Finite("yaw", m.yaw)
-      .Finite("yaw_tolerance", m.yaw_tolerance)
       .Finite("hypothesis_position", m.hypothesis_position)
       .That(std::int64_t{m.camera.width} * m.camera.height == m.surface_size,
             "surface_size is not camera.width * camera.height");
+  CheckPrior(m, &check);
   for (const std::vector<double>& q : m.hypothesis_orientation)
     CheckUnit("hypothesis_orientation", q, &check);
   return check.ok();

@@ -37,13 +37,23 @@ double FollowedPlace::Turn() const {
   return turn;
 }
 
+bool FollowedPlaces::DropUnless(const std::function<bool(const SE3&)>& possible) {
+  const auto gone = std::remove_if(places_.begin(), places_.end(), [&](const FollowedPlace& place) {
+    return !possible(place.state.T_map_body);
+  });
+  const bool any = gone != places_.end();
+  places_.erase(gone, places_.end());
+  return any;
+}
+
 std::vector<SE3> FollowedPlaces::MoveTo(Utime t, const ImuBetween& imu) {
   std::vector<SE3> predicted;
   for (FollowedPlace& place : places_) {
-    const NavState state = PropagateImu({place.state.T_map_body, place.state.velocity},
-                                        imu(place.steps.back().t, t), place.state.bias, gravity_);
+    const NavState state = PropagateImu({place.state.T_map_body, place.state.velocity}, imu(place.at, t),
+                                        place.state.bias, gravity_);
     place.state.T_map_body = state.T_map_body;
     place.state.velocity = state.velocity;
+    place.at = t;
     predicted.push_back(state.T_map_body);
   }
   return predicted;
@@ -76,6 +86,7 @@ void FollowedPlaces::Adopt(Utime t, const PlaceCandidate& candidate) {
     if (SamePose(place.state.T_map_body, candidate.T_map_body)) return;
   FollowedPlace place;
   place.state.T_map_body = candidate.T_map_body;
+  place.at = t;
   place.steps.push_back({t, candidate.T_map_body, candidate.significance});
   place.likeness = candidate.likeness;
   place.n_points = candidate.n_points;

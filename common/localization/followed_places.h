@@ -19,6 +19,7 @@ struct FollowedPlace {
     double significance;
   };
   BodyState state;  // at its last step, or where the IMU has moved it since
+  Utime at = 0;     // us: of that state
   std::vector<Step> steps;
   int weak = 0;  // last steps in a row that did not fit
   double likeness = 0;
@@ -43,6 +44,8 @@ class FollowedPlaces {
       : gravity_(gravity), most_(most), worth_following_(worth_following) {}
 
   void Clear() { places_.clear(); }
+  /// Drops those for whose T_map_body it is false: true where there were any.
+  bool DropUnless(const std::function<bool(const SE3&)>& possible);
   bool empty() const { return places_.empty(); }
   const std::vector<FollowedPlace>& all() const { return places_; }
 

@@ -42,6 +42,7 @@ class LocatingTracker final : public MapTracker {
   const Eigen::Vector3d& rate() const override { return searching_ ? rate_ : tracker_->rate(); }
 
   const PlaceQuery* PlaceQuestion() const override { return searching_ ? locator_.question() : nullptr; }
+  void SetPlacePrior(const PlacePrior& prior) override { locator_.SetPrior(prior); }
   void AddPlaces(const std::vector<PlaceCandidate>& places) override { locator_.AddAnswer(places); }
 
  private:

@@ -17,7 +17,8 @@ constexpr std::size_t kBacklog = 6;     // keyframes waiting, from which every o
 constexpr Utime kRetry = 200'000;       // us between searches everywhere that found nothing worth following
 constexpr double kUnsureUp = 0.05;      // rad: from which the next search tries another vertical
 constexpr double kKnownScale = 0.1;     // sigma of the map's size, where it is in doubt
-constexpr double kPoseSigma = 0.01;     // m, rad: of an event-only pose, for the alignment with the IMU
+constexpr double kPriorSlack = 0.2;  // m, rad: a place a little outside of what is known may still be right
+constexpr double kPoseSigma = 0.01;  // m, rad: of an event-only pose, for the alignment with the IMU
 
 // Of attempts one after the other: the vertical as estimated, then tilted by its uncertainty to four sides.
 Eigen::Vector3d Tilted(const Upright& upright, std::int64_t attempt) {
@@ -47,6 +48,15 @@ void SelfLocator::Restart() {
 
 FollowedPlaces::ImuBetween SelfLocator::Imu() const {
   return [this](Utime begin, Utime end) { return imu_.Between(begin, end); };
+}
+
+void SelfLocator::SetPrior(const PlacePrior& prior) {
+  options_.prior = prior;
+  const bool dropped = places_.DropUnless(
+      [&prior](const SE3& T_map_body) { return prior.Allows(T_map_body, kPriorSlack, kPriorSlack); });
+  // The answer would be about what is given up, too. Where nothing is left it is looked for at once.
+  if (dropped && found_at_ == 0) question_.reset();
+  if (dropped && places_.empty()) searched_ = 0;
 }
 
 void SelfLocator::AddKeyframe(const KeyframeInput& keyframe) {

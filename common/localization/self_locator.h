@@ -45,6 +45,8 @@ class SelfLocator {
   void Restart();
   void AddKeyframe(const KeyframeInput& keyframe);
 
+  /// What is known of the place, from now on: what is followed and cannot be is given up.
+  void SetPrior(const PlacePrior& prior);
   /// The map's size is not to be trusted: from now on a place counts as found only once the accelerometer
   /// says that it fits.
   void DoubtScale() { doubts_scale_ = true; }

@@ -12,6 +12,7 @@
 
 namespace evit {
 
+struct PlacePrior;
 struct PlaceQuery;
 struct PlaceCandidate;
 
@@ -45,6 +46,8 @@ class MapTracker {
   virtual const PlaceQuery* PlaceQuestion() const { return nullptr; }
   /// The answer.
   virtual void AddPlaces(const std::vector<PlaceCandidate>& /*places*/) {}
+  /// What is known of the place by other means; replaces what was known before.
+  virtual void SetPlacePrior(const PlacePrior& /*prior*/) {}
 
   /// Overload: use only so large a share of the configured points (0..1], and stop a solve after `seconds`
   /// with the best state so far (0: never). Neither is reproducible: for real time only.

@@ -17,7 +17,34 @@ SE3 PoseOf(const std::vector<double>& p, const std::vector<double>& q) {
   return {Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(), {p[0], p[1], p[2]}};
 }
 
+// Messages with the fields of a prior.
+template <typename Message>
+void PutPrior(const PlacePrior& prior, Message* m) {
+  m->near_radius = prior.near ? prior.near->radius : -1;
+  if (prior.near) Put(prior.near->position, m->near_position);
+  m->height_low = prior.height ? prior.height->low : 0;
+  m->height_high = prior.height ? prior.height->high : -1;
+  m->yaw = prior.heading ? prior.heading->yaw : 0;
+  m->yaw_tolerance = prior.heading ? prior.heading->tolerance : -1;
+}
+template <typename Message>
+PlacePrior PriorOf(const Message& m) {
+  PlacePrior prior;
+  if (m.near_radius >= 0) prior.near = {Eigen::Vector3d(m.near_position), m.near_radius};
+  if (m.height_low <= m.height_high) prior.height = {m.height_low, m.height_high};
+  if (m.yaw_tolerance >= 0) prior.heading = {m.yaw, m.yaw_tolerance};
+  return prior;
+}
+
 }  // namespace
+
+place_prior_t ToMessage(const PlacePrior& prior) {
+  place_prior_t m{};
+  PutPrior(prior, &m);
+  return m;
+}
+
+PlacePrior FromMessage(const place_prior_t& message) { return PriorOf(message); }
 
 place_query_t ToMessage(const PlaceQuery& query, const Rig& rig) {
   place_query_t m{};
@@ -27,13 +54,7 @@ place_query_t ToMessage(const PlaceQuery& query, const Rig& rig) {
   m.camera = ToMessage(rig.camera);
   Put(query.up_body, m.up);
   m.everywhere = query.everywhere ? 1 : 0;
-  const PlacePrior& prior = query.prior;
-  m.near_radius = prior.near ? prior.near->radius : -1;
-  if (prior.near) Put(prior.near->position, m.near_position);
-  m.height_low = prior.height ? prior.height->low : 0;
-  m.height_high = prior.height ? prior.height->high : -1;
-  m.yaw = prior.heading ? prior.heading->yaw : 0;
-  m.yaw_tolerance = prior.heading ? prior.heading->tolerance : -1;
+  PutPrior(query.prior, &m);
   m.n = static_cast<std::int32_t>(query.hypotheses.size());
   for (const SE3& pose : query.hypotheses) PushPose(pose, &m.hypothesis_position, &m.hypothesis_orientation);
   const cv::Mat surface = query.surface.isContinuous() ? query.surface : query.surface.clone();
@@ -50,9 +71,7 @@ PlaceQuery FromMessage(const place_query_t& m) {
   std::copy(m.surface.begin(), m.surface.end(), query.surface.data);
   query.up_body = Eigen::Vector3d(m.up).normalized();
   query.everywhere = m.everywhere != 0;
-  if (m.near_radius >= 0) query.prior.near = {Eigen::Vector3d(m.near_position), m.near_radius};
-  if (m.height_low <= m.height_high) query.prior.height = {m.height_low, m.height_high};
-  if (m.yaw_tolerance >= 0) query.prior.heading = {m.yaw, m.yaw_tolerance};
+  query.prior = PriorOf(m);
   for (std::size_t k = 0; k < m.hypothesis_position.size(); ++k)
     query.hypotheses.push_back(PoseOf(m.hypothesis_position[k], m.hypothesis_orientation[k]));
   return query;

@@ -4,12 +4,16 @@
 
 #include "common/geometry/rig.h"
 #include "common/localization/place_query.h"
+#include "evit/place_prior_t.hpp"
 #include "evit/place_query_t.hpp"
 #include "evit/places_t.hpp"
 
 /// Questions for places and their answers. Incoming messages must have been checked (DecodeChecked); utime of
 /// the answer, seq and epoch are the caller's.
 namespace evit {
+
+place_prior_t ToMessage(const PlacePrior& prior);
+PlacePrior FromMessage(const place_prior_t& message);
 
 /// `rig`: what the keyframe was seen with.
 place_query_t ToMessage(const PlaceQuery& query, const Rig& rig);

@@ -3,18 +3,21 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
 #include "common/geometry/rig.h"
+#include "common/localization/place_query.h"
+#include "common/service/sequence_counter.h"
 #include "common/service/status_reporter.h"
 #include "common/tracking/map_tracker.h"
 #include "services/window_optimizer/request_client.h"
 
 namespace evit {
 
-/// Brings a tracker's questions about places (MapTracker::PlaceQuestion) to map_server and the answers back.
-/// A tracker that asks nothing costs nothing.
+/// Brings a tracker's questions about places (MapTracker::PlaceQuestion) to map_server and the answers back,
+/// and what others know of the place (PLACE_PRIOR) to the tracker. A tracker that asks nothing costs nothing.
 class PlaceClient {
  public:
   using Clock = std::chrono::steady_clock;
@@ -33,9 +36,13 @@ class PlaceClient {
   bool waiting() const { return asked_ != 0 && !client_.answered(); }
 
  private:
+  void OnPrior(const std::uint8_t* data, std::size_t size);
+
   RequestClient<PlacesRequest> client_;
   Rig rig_;
-  std::int64_t asked_ = 0;  // number of the tracker's question; 0: none
+  SequenceCounter priors_;
+  std::optional<PlacePrior> prior_;  // not told to the tracker yet
+  std::int64_t asked_ = 0;           // number of the tracker's question; 0: none
 };
 
 }  // namespace evit

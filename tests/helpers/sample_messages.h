@@ -178,6 +178,19 @@ inline place_query_t Sample<place_query_t>(int n) {
 }
 
 template <>
+inline place_prior_t Sample<place_prior_t>(int /*n*/) {
+  place_prior_t m{};
+  Stamp(&m);
+  m.near_position[1] = 2.5;
+  m.near_radius = 3;
+  m.height_low = 0.5;
+  m.height_high = 2;
+  m.yaw = 1;
+  m.yaw_tolerance = 0.25;
+  return m;
+}
+
+template <>
 inline places_t Sample<places_t>(int n) {
   places_t m{};
   Stamp(&m);
