@@ -94,10 +94,11 @@ TEST(ChannelsDocument, TheTableHasAllMessages) {
 TEST(Channels, ThePrefixGoesInFrontOfEachName) {
   const Channels plain, prefixed("left/");
   const auto all = [](const Channels& c) {
-    return std::vector<std::string>{
-        c.events,       c.imu,       c.ground_truth, c.keyframe, c.map_query,      c.map_points,
-        c.window_state, c.body_pose, c.tracker_mode, c.status,   c.replay_control, c.credit,
-        c.stream_end,   c.pose_hint, c.view_query,   c.map_view, c.place_query,    c.places};
+    return std::vector<std::string>{c.events,       c.imu,        c.ground_truth,   c.keyframe,
+                                    c.map_query,    c.map_points, c.window_state,   c.body_pose,
+                                    c.tracker_mode, c.status,     c.replay_control, c.credit,
+                                    c.stream_end,   c.pose_hint,  c.view_query,     c.map_view,
+                                    c.place_query,  c.places,     c.place_prior};
   };
   const std::vector<std::string> names = all(plain), with_prefix = all(prefixed);
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()), ChannelsOfHeader());
