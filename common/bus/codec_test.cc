@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -140,11 +141,17 @@ TYPED_TEST(CodecTest, AValidSeedForFuzzingIsKept) {
   const std::string type = TypeParam::getTypeName();
   const std::string path = test::SourcePath("tests/fuzz/corpus/messages/" +
                                             type.substr(0, type.size() - std::string("_t").size()));
+  if (std::getenv("EVIT_WRITE_SEEDS") != nullptr && !std::ifstream(path)) {
+    const std::vector<std::uint8_t> seed = Encoded(Sample<TypeParam>());
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(seed.data()), static_cast<std::streamsize>(seed.size()));
+  }
   std::ifstream file(path, std::ios::binary);
   const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file),
                                         std::istreambuf_iterator<char>()};
   std::string why;
-  EXPECT_TRUE(DecodeExact<TypeParam>(bytes, &why)) << path << ": " << why;
+  EXPECT_TRUE(DecodeExact<TypeParam>(bytes, &why))
+      << path << ": " << why << "; EVIT_WRITE_SEEDS=1 writes what is missing";
 }
 
 TEST(Codec, EncodingAVectorThatBeliesItsCountThrows) {

@@ -113,6 +113,7 @@ TEST(OptionTable, EnumsHaveTheSchemasNumbers) {
   EXPECT_EQ(static_cast<int>(SurfaceOptions::Kind::kSymmetric), config::Surface::SYMMETRIC);
   EXPECT_EQ(static_cast<int>(RobustKernel::Kind::kHuber), config::Alignment::HUBER);
   EXPECT_EQ(static_cast<int>(RobustKernel::Kind::kCauchy), config::Alignment::CAUCHY);
+  EXPECT_EQ(static_cast<int>(RobustKernel::Kind::kGemanMcClure), config::Alignment::GEMAN_MCCLURE);
   EXPECT_EQ(static_cast<int>(WindowOptions::FirstNode::kPrior), config::Window::PRIOR);
   EXPECT_EQ(static_cast<int>(WindowOptions::MotionModel::kImu), config::Evit::IMU);
   EXPECT_EQ(static_cast<int>(WindowOptions::MotionModel::kConstantVelocity), config::Evt::CONSTANT_VELOCITY);

@@ -36,7 +36,8 @@ std::string VectorOf(std::string name) {
 
 bool IsAnyOf(const std::string& vector, std::initializer_list<const char*> names) {
   return std::any_of(names.begin(), names.end(), [&](const char* name) {
-    return vector == name || EndsWith(vector, std::string(".") + name) || vector.rfind(std::string(name) + "_", 0) == 0;
+    return vector == name || EndsWith(vector, std::string(".") + name) ||
+           vector.rfind(std::string(name) + "_", 0) == 0;
   });
 }
 
@@ -76,8 +77,9 @@ PoseColumns PoseColumnsOf(const TableSample& sample) {
 }
 
 PoseRow ReadPoseRow(const PoseColumns& columns, TimeUnit unit, TableReader* table) {
-  const std::size_t last = std::max({columns.time, *std::max_element(columns.position.begin(), columns.position.end()),
-                                     *std::max_element(columns.orientation.begin(), columns.orientation.end())});
+  const std::size_t last =
+      std::max({columns.time, *std::max_element(columns.position.begin(), columns.position.end()),
+                *std::max_element(columns.orientation.begin(), columns.orientation.end())});
   PoseRow row;
   for (std::size_t k = 0; k <= last; ++k) {
     const auto p = std::find(columns.position.begin(), columns.position.end(), k);

@@ -16,8 +16,8 @@ struct PoseColumns {
 };
 
 /// As the head names them, e.g. "tx ... qw", EuRoC's "p_RS_R_x [m] ... q_RS_w []" (w first), and
-/// "field.pose.position.x ..." of `rostopic echo -p`; the TUM format's order where there is no head, or one that
-/// does not name all eight.
+/// "field.pose.position.x ..." of `rostopic echo -p`; the TUM format's order where there is no head, or one
+/// that does not name all eight.
 PoseColumns PoseColumnsOf(const TableSample& sample);
 
 struct PoseRow {

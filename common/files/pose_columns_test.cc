@@ -29,10 +29,12 @@ TEST(PoseColumns, HeadsOfOtherProgramsSayTheOrder) {
   } cases[] = {
       {"# timestamp tx ty tz qx qy qz qw", "7 1 2 3 0.1 0.2 0.3 0.9"},
       {"time,x,y,z,qw,qx,qy,qz", "7,1,2,3,0.9,0.1,0.2,0.3"},
-      {"#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], "
+      {"#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z "
+       "[], "
        "v_RS_R_x [m s^-1], v_RS_R_y [m s^-1], v_RS_R_z [m s^-1], b_w_RS_S_x [rad s^-1]",
        "7,1,2,3,0.9,0.1,0.2,0.3,5,5,5,6"},
-      {"%time,field.header.seq,field.header.stamp,field.header.frame_id,field.pose.position.x,field.pose.position.y,"
+      {"%time,field.header.seq,field.header.stamp,field.header.frame_id,field.pose.position.x,field.pose."
+       "position.y,"
        "field.pose.position.z,field.pose.orientation.x,field.pose.orientation.y,field.pose.orientation.z,"
        "field.pose.orientation.w",
        "8,0,7,map,1,2,3,0.1,0.2,0.3,0.9"},

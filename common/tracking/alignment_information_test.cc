@@ -6,24 +6,24 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
+#include "common/tracking/reference_alignment.h"
 #include "common/tracking/synthetic_scene.h"
 
 namespace evit {
 namespace {
 
-class AlignmentInformationTest : public ::testing::TestWithParam<RobustKernel::Kind> {
+class AlignmentInformationTest : public ::testing::TestWithParam<NamedKernel> {
  protected:
   AlignmentSettings settings_ = synthetic::Alignment();
   std::vector<Eigen::Vector3f> room_ = synthetic::RoomPoints();
   SE3 pose_{ExpSO3({0.3, -0.1, 0.2}), {0.02, -0.03, 0.01}};
 };
-INSTANTIATE_TEST_SUITE_P(Kernels, AlignmentInformationTest,
-                         ::testing::Values(RobustKernel::Kind::kHuber, RobustKernel::Kind::kCauchy,
-                                           RobustKernel::Kind::kGemanMcClure));
+INSTANTIATE_TEST_SUITE_P(Kernels, AlignmentInformationTest, ::testing::ValuesIn(kRobustKernels),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 // By differences of the gradient, which factors_test.cc holds against differences of the cost.
 TEST_P(AlignmentInformationTest, IsTheCurvatureOfTheCostWhereThatIsAValley) {
-  settings_.kernel = {GetParam(), 1.5};
+  settings_.kernel = {GetParam().kind, 1.5};
   const SE3 pose;
   const SurfaceField field(synthetic::DrawSurface(settings_, room_, pose), 1);
   const AlignmentPoints points(room_);
@@ -41,7 +41,7 @@ TEST_P(AlignmentInformationTest, IsTheCurvatureOfTheCostWhereThatIsAValley) {
 // Events that have nothing to do with the map: they say nothing of the pose. The solver's Hessian claims that
 // they do.
 TEST_P(AlignmentInformationTest, OfNoiseIsAFractionOfWhatTheSolversHessianClaims) {
-  settings_.kernel = {GetParam(), 1};
+  settings_.kernel = {GetParam().kind, 1};
   cv::Mat noise(settings_.camera().height, settings_.camera().width, CV_8UC1, cv::Scalar(255));
   std::mt19937 rng(1);
   for (int k = 0; k < 20'000; ++k) {

@@ -9,22 +9,15 @@
 namespace evit {
 namespace {
 
-using Kind = RobustKernel::Kind;
-
-class RobustKernelTest : public ::testing::TestWithParam<Kind> {};
-INSTANTIATE_TEST_SUITE_P(Kernels, RobustKernelTest,
-                         ::testing::Values(Kind::kHuber, Kind::kCauchy, Kind::kGemanMcClure),
-                         [](const auto& info) -> std::string {
-                           return info.param == Kind::kHuber    ? "Huber"
-                                  : info.param == Kind::kCauchy ? "Cauchy"
-                                                                : "GemanMcClure";
-                         });
+class RobustKernelTest : public ::testing::TestWithParam<NamedKernel> {};
+INSTANTIATE_TEST_SUITE_P(Kernels, RobustKernelTest, ::testing::ValuesIn(kRobustKernels),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 constexpr float kSquares[kLanes] = {0,    1e-4F, 0.01F, 0.1F, 0.3F, 0.48F, 0.5F, 0.7F,
                                     1.0F, 1.5F,  2.0F,  4.0F, 9.0F, 10.2F, 30.F, 100.F};
 
 TEST_P(RobustKernelTest, LanesGiveTheFormulasValueAndSlope) {
-  const RobustKernel kernel{GetParam(), 0.7};
+  const RobustKernel kernel{GetParam().kind, 0.7};
   alignas(64) float slope[kLanes];
   double before = 0;
   for (int n = 1; n <= kLanes; ++n) {  // lanes from n on must not count
@@ -37,7 +30,7 @@ TEST_P(RobustKernelTest, LanesGiveTheFormulasValueAndSlope) {
 }
 
 TEST_P(RobustKernelTest, SlopeIsTheDerivativeAndTheKernelIsConcave) {
-  const RobustKernel kernel{GetParam(), 0.7};
+  const RobustKernel kernel{GetParam().kind, 0.7};
   alignas(64) float slope[kLanes];
   KernelLanes(LaneKernel(kernel), kSquares, kLanes, slope);
   for (int l = 1; l < kLanes; ++l) {
@@ -75,7 +68,7 @@ std::vector<Eigen::Vector3f> Moved(const SE3& T, const std::vector<Eigen::Vector
 TEST_P(RobustKernelTest, EveryAlignmentIsTheReferences) {
   for (const auto model : {Camera::Model::kPlumbBob, Camera::Model::kEquidistant}) {
     AlignmentSettings settings = synthetic::Alignment(model);
-    settings.kernel = {GetParam(), 0.8};
+    settings.kernel = {GetParam().kind, 0.8};
     for (const Frame& frame : Frames()) {
       const auto points = Moved(frame.T_map_room, synthetic::RoomPoints());
       const SurfaceField field(synthetic::DrawSurface(settings, points, frame.T_map_room), 2);

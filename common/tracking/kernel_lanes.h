@@ -7,7 +7,7 @@
 
 namespace evit {
 
-/// A RobustKernel made ready for lanes. A new kernel goes here, into RobustKernel::Kind and into the test.
+/// A RobustKernel made ready for lanes. CONTRIBUTING.md lists where a new kernel goes.
 struct LaneKernel {
   explicit LaneKernel(const RobustKernel& kernel)
       : kind(kernel.kind),

@@ -9,6 +9,15 @@
 /// read, and for tests to compare the fast lanes with (batch_alignment.h, kernel_lanes.h, surface_lanes.h).
 namespace evit {
 
+/// Every robust kernel, by name: what the tests run on.
+struct NamedKernel {
+  RobustKernel::Kind kind;
+  const char* name;
+};
+constexpr NamedKernel kRobustKernels[] = {{RobustKernel::Kind::kHuber, "Huber"},
+                                          {RobustKernel::Kind::kCauchy, "Cauchy"},
+                                          {RobustKernel::Kind::kGemanMcClure, "GemanMcClure"}};
+
 /// rho(s) and rho'(s) of a squared residual s.
 struct KernelValue {
   double rho, slope;
