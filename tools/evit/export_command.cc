@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "common/config/rig_file.h"
 #include "common/evaluation/trajectory.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
@@ -47,7 +48,7 @@ void AddExportLog(CLI::App* app, const char* name, const char* text, formats::Ex
 
 void AddExportResults(CLI::App* app) {
   struct Options {
-    std::string from, format, out;
+    std::string from, format, out, camera_of;
   };
   auto o = std::make_shared<Options>();
   static const std::map<std::string, formats::TrajectoryFormat> kFormats = {
@@ -64,12 +65,17 @@ void AddExportResults(CLI::App* app) {
       ->required()
       ->check(CLI::IsMember({"tum", "kitti", "euroc", "mcap"}));
   command->add_option("--out", o->out, "File to write")->required();
+  command->add_option("--camera-of", o->camera_of,
+                      "Rig file or Kalibr's camchain: write poses of its camera, on the camera's clock, "
+                      "instead of the body's");
   command->footer("Example: evit export results desk_result --format euroc --out desk.csv");
   command->callback([o] {
     const bool folder = std::filesystem::is_directory(o->from);
-    const Trajectory trajectory = ReadTum(folder ? o->from + "/trajectory.tum" : o->from);
+    Trajectory trajectory = ReadTum(folder ? o->from + "/trajectory.tum" : o->from);
+    if (!o->camera_of.empty()) trajectory = formats::CameraTrajectory(trajectory, LoadRig(o->camera_of));
     formats::WriteTrajectory(o->out, kFormats.at(o->format), trajectory);
-    std::printf("%s: %zu poses\n", o->out.c_str(), trajectory.size());
+    std::printf("%s: %zu poses%s\n", o->out.c_str(), trajectory.size(),
+                o->camera_of.empty() ? "" : " of the camera");
   });
 }
 

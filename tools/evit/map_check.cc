@@ -68,7 +68,7 @@ void AddMapCheck(CLI::App* map) {
   command->footer(
       "Example: evit map check --log desk.lcmlog --map desk.pcd --rig rig.textproto --truth "
       "desk.lcmlog.truth.tum --out check\n"
-      "In the pictures pixels that fired are grey, points of the map on them green, beside them red.");
+      "In the pictures pixels that fired are grey, points of the map on them blue, others orange.");
   command->callback([o] {
     mapping::MapCheck check;
     {

@@ -26,7 +26,7 @@ std::string SharedData() {
 
 void AddPaperCommand(CLI::App* app) {
   auto o = std::make_shared<paper::PaperOptions>();
-  CLI::App* paper = app->add_subcommand("paper", "The paper's tables and figures, in one go");
+  CLI::App* paper = app->add_subcommand("paper", "The paper's tables and figures, with one command");
   paper->add_option("--out", o->out, "Folder for the results; work it already contains is not repeated")
       ->required();
   paper->add_option("--vector", o->vector,

@@ -6,7 +6,7 @@
 
 namespace evit::simulation {
 
-/// Sets of errors that belong together (docs/reference/simulation.md says where the figures come from).
+/// Sets of errors that belong together (docs/reference/simulator.md says where the figures come from).
 enum class Profile {
   kIdeal,      // a plain sensor, and a map as a depth camera makes it
   kCameraMap,  // the map of an image-based mapper

@@ -32,6 +32,14 @@ void WriteEuroc(std::ostream& out, const Trajectory& trajectory) {
 
 }  // namespace
 
+Trajectory CameraTrajectory(const Trajectory& body, const Rig& rig) {
+  Trajectory camera;
+  camera.reserve(body.size());
+  for (const StampedPose& s : body)
+    camera.push_back({s.t - rig.camera_time_offset, s.pose * rig.T_body_camera});
+  return camera;
+}
+
 void WriteTrajectory(const std::string& path, TrajectoryFormat format, const Trajectory& trajectory) {
   if (format == TrajectoryFormat::kTum) return WriteTum(path, trajectory);
   WholeFile file(path);

@@ -95,5 +95,17 @@ TEST_F(ExportTest, TrajectoriesReadBackFromEveryFormat) {
   EXPECT_FALSE(std::getline(kitti, third));
 }
 
+TEST(CameraTrajectoryTest, HoldsPosesAndStampsOfTheCamera) {
+  Rig rig;
+  rig.T_body_camera = {Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.1, 0, 0}};
+  rig.camera_time_offset = 8376;  // us, from the camera's clock to the IMU's
+  const SE3 turned(Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ())), {1, 2, 3});
+  const Trajectory camera = CameraTrajectory({{kStart, turned}}, rig);
+  ASSERT_EQ(camera.size(), 1U);
+  EXPECT_EQ(camera[0].t, kStart - 8376);
+  EXPECT_TRUE(camera[0].pose.p.isApprox(Eigen::Vector3d(1, 2.1, 3)));
+  EXPECT_TRUE(camera[0].pose.R().isApprox(turned.R() * rig.T_body_camera.R()));
+}
+
 }  // namespace
 }  // namespace evit::formats
