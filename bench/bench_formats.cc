@@ -54,7 +54,7 @@ void Import(benchmark::State& state, const char* name) {
   job.height = 720;
   for (auto _ : state) {
     const auto summary = formats::ImportRecording(
-        job, [](const formats::RecordingInfo&) {}, [](double) {});
+        job, [](const formats::RecordingInfo&, SE3*) {}, [](double) {});
     if (summary.n_events != static_cast<std::int64_t>(kEvents)) state.SkipWithError("events are missing");
   }
   PerSecond(state, kEvents, 20e6, 0);

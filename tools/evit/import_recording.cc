@@ -1,14 +1,17 @@
 #include "tools/formats/recognition/import_recording.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "common/config/rig_file.h"
 #include "common/files/decimal_time.h"
+#include "common/geometry/pose_text.h"
 #include "tools/evit/import_options.h"
 #include "tools/evit/options.h"
-#include "tools/formats/calibration_files/basalt_calibration.h"
+#include "tools/formats/calibration_files/read_calibration.h"
 
 namespace evit::commands {
 namespace {
@@ -32,41 +35,38 @@ void PrintStreams(const formats::ImportSummary& s) {
   }
 }
 
-}  // namespace
+struct RecordingOptions {
+  ImportOptions shared;
+  formats::RecordingImport job;
+  std::string size, rig, rig_out, T_body_camera;
+  std::vector<std::string> calibration;
+  std::optional<formats::FoundCalibration> found;
+};
 
-void AddImportRecording(CLI::App* import) {
-  struct Options {
-    ImportOptions shared;
-    formats::RecordingImport job;
-    std::string size, rig, calibration, rig_out;
-    formats::RecordingInfo found;
-  };
-  auto o = std::make_shared<Options>();
-  import->add_option("FILE", o->job.paths,
-                     "Recording of any format, recognised by its contents: files, or a folder");
-  o->shared.AddTo(import, false);
-  import->add_option("--size", o->size, "WxH of the sensor in pixels, where the recording does not say it");
-  import->add_option("--rig", o->rig, "Calibration; its T_marker_body turns the truth's body into the IMU's");
-  auto* calibration = import->add_option("--calibration", o->calibration,
-                                         "Calibration in Basalt's JSON (TUM-VIE), for --rig-out");
-  import->add_option("--rig-out", o->rig_out, "Rig file to write from it")->needs(calibration);
-  import->add_option("--imu", o->job.imu, "Another file with the IMU: a table, HDF5, a bag, ...");
-  import->add_option("--imu-offset", o->job.imu_offset,
-                     "Seconds to add to IMU stamps to get the clock of the events");
-  import->add_flag("--align-clocks", o->job.align_clocks,
-                   "Find that offset, up to 2 s around it, from the rotation that events and gyro show");
-  import->add_option("--truth", o->job.truth,
-                     "Another file with the truth: a table (TUM, EuRoC, ...), HDF5, a bag");
-  formats::StreamChoice& choice = o->job.choice;
-  import->add_option("--events-topic", choice.events, "Of a bag: events to take (default: the only ones)");
-  import->add_option("--imu-topic", choice.imu, "Of a bag: IMU to take (default: the only one)");
-  import->add_option("--truth-topic", choice.truth,
-                     "Of a bag: pose, odometry or transform to take (default: the only one)");
-  import->footer(
-      "Example: evit import recording.raw --out recording.lcmlog\n"
-      "What is out of order, not finite or outside the sensor is counted and left out.");
-  import->callback([o, import] {
-    if (!import->get_subcommands().empty()) return;
+// The rig that --calibration gives, for what was recognised.
+void FindCalibration(const formats::RecordingInfo& info, RecordingOptions* o, SE3* T_marker_body) {
+  formats::CalibrationChoice choice;
+  choice.width = info.width;
+  choice.height = info.height;
+  if (o->job.choice.events.find("right") != std::string::npos) choice.side = "right";
+  if (!o->T_body_camera.empty()) choice.T_body_camera = ParsePose("--t-body-camera", o->T_body_camera);
+  o->found = formats::ReadCalibration(o->calibration, choice);
+  *T_marker_body = o->found->rig.T_marker_body;
+}
+
+void WriteFoundRig(const RecordingOptions& o, const formats::ImportSummary& summary) {
+  Rig rig = o.found->rig;
+  if (rig.imu_rate_hz == 0) rig.imu_rate_hz = summary.imu_rate_hz > 0 ? summary.imu_rate_hz : 200;
+  const std::string name = std::filesystem::path(o.job.paths.front()).filename().string();
+  WriteRig(o.rig_out, rig, name,
+           "Made by evit import from " + o.found->source + "." +
+               (o.found->imu_assumed ? "\nIMU noise: a consumer IMU's, which the calibration does not tell."
+                                     : ""));
+  std::printf("%s: rig of %s%s\n", o.rig_out.c_str(), o.found->source.c_str(),
+              o.found->imu_assumed ? "; IMU noise: a consumer IMU's is assumed" : "");
+}
+
+void ImportAny(RecordingOptions* o) {
   if (o->job.paths.empty())
     throw std::runtime_error("no recording given: evit import FILE --out LOG, or evit import --help");
   if (o->shared.out.empty()) throw std::runtime_error("--out is missing: the log to write");
@@ -81,13 +81,63 @@ void AddImportRecording(CLI::App* import) {
     }
   }
   formats::ImportSummary summary;
-  RunImport(o->job.paths.front(), o->job, "none recognised in the recording", [&](const auto& progress) {
+  const std::string& path = o->job.paths.front();
+  RunImport(path, o->job, "none recognised in the recording", [&](const auto& progress) {
     summary = formats::ImportRecording(
-        o->job, [&](const formats::RecordingInfo& info) { PrintFound(o->job.paths.front(), info); },
+        o->job,
+        [&](const formats::RecordingInfo& info, SE3* T_marker_body) {
+          PrintFound(path, info);
+          if (!o->calibration.empty()) FindCalibration(info, o, T_marker_body);
+        },
         progress);
     return summary;
   });
   PrintStreams(summary);
+  if (!o->rig_out.empty()) WriteFoundRig(*o, summary);
+}
+
+}  // namespace
+
+void AddImportRecording(CLI::App* import) {
+  auto o = std::make_shared<RecordingOptions>();
+  import->add_option("FILE", o->job.paths,
+                     "Recording of any format, recognised by its contents: files, or a folder");
+  o->shared.AddTo(import, false);
+  import->add_option("--size", o->size, "WxH of the sensor in pixels, where the recording does not say it");
+  auto* rig = import->add_option("--rig", o->rig,
+                                 "Calibration; its T_marker_body turns the truth's body into the IMU's");
+  auto* calibration =
+      import
+          ->add_option(
+              "--calibration", o->calibration,
+              "Published calibration, for --rig-out and the truth's body: Basalt's JSON (TUM-VIE, with its "
+              "T_imu_marker in a second file), M3ED's HDF5, DSEC's cam_to_cam.yaml, Kalibr's "
+              "camchain-imucam.yaml (MVSEC)")
+          ->excludes(rig);
+  import->add_option("--rig-out", o->rig_out, "Rig file to write from it")->needs(calibration);
+  import
+      ->add_option(
+          "--t-body-camera", o->T_body_camera,
+          "Camera in the body (IMU) frame, for --rig-out: \"x y z qx qy qz qw\" (default: the calibration's)")
+      ->needs(calibration);
+  import->add_option("--imu", o->job.imu, "Another file with the IMU: a table, HDF5, a bag, ...");
+  import->add_option("--imu-offset", o->job.imu_offset,
+                     "Seconds to add to IMU stamps to get the clock of the events");
+  import->add_flag("--align-clocks", o->job.align_clocks,
+                   "Find that offset, up to 2 s around it, from the rotation that events and gyro show");
+  import->add_option("--truth", o->job.truth,
+                     "Another file with the truth: a table (TUM, EuRoC, ...), HDF5, a bag");
+  formats::StreamChoice& choice = o->job.choice;
+  import->add_option("--events-topic", choice.events,
+                     "Events to take where there are several: a bag's topic, a group of HDF5");
+  import->add_option("--imu-topic", choice.imu, "Of a bag: IMU to take (default: the only one)");
+  import->add_option("--truth-topic", choice.truth,
+                     "Of a bag: pose, odometry or transform to take (default: the only one)");
+  import->footer(
+      "Example: evit import recording.raw --out recording.lcmlog\n"
+      "What is out of order, not finite or outside the sensor is counted and left out.");
+  import->callback([o, import] {
+    if (import->get_subcommands().empty()) ImportAny(o.get());
 });
 }  // namespace evit::commands
 

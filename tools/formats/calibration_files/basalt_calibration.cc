@@ -35,6 +35,13 @@ double Mean(const json& three) {
   return (three.at(0).get<double>() + three.at(1).get<double>() + three.at(2).get<double>()) / 3;
 }
 
+SE3 Pose(const json& T, const std::string& name) {
+  const Eigen::Quaterniond q(T.at("qw").get<double>(), T.at("qx").get<double>(), T.at("qy").get<double>(),
+                             T.at("qz").get<double>());
+  if (!(std::abs(q.norm() - 1) < 1e-3)) throw std::runtime_error(name + "'s quaternion is no rotation");
+  return {q.normalized(), {T.at("px").get<double>(), T.at("py").get<double>(), T.at("pz").get<double>()}};
+}
+
 Rig Convert(const json& calibration, int width, int height) {
   Rig rig;
   const json& sizes = calibration.at("resolution");
@@ -49,12 +56,7 @@ Rig Convert(const json& calibration, int width, int height) {
   ReadIntrinsics(calibration.at("intrinsics").at(k), &rig.camera);
   rig.camera.width = width;
   rig.camera.height = height;
-  const json& T = calibration.at("T_imu_cam").at(k);
-  const Eigen::Quaterniond q(T.at("qw").get<double>(), T.at("qx").get<double>(), T.at("qy").get<double>(),
-                             T.at("qz").get<double>());
-  if (!(std::abs(q.norm() - 1) < 1e-3)) throw std::runtime_error("T_imu_cam's quaternion is no rotation");
-  rig.T_body_camera = {q.normalized(),
-                       {T.at("px").get<double>(), T.at("py").get<double>(), T.at("pz").get<double>()}};
+  rig.T_body_camera = Pose(calibration.at("T_imu_cam").at(k), "T_imu_cam");
   rig.imu_rate_hz = calibration.at("imu_update_rate");
   rig.imu_noise.gyro_density = Mean(calibration.at("gyro_noise_std"));
   rig.imu_noise.accel_density = Mean(calibration.at("accel_noise_std"));
@@ -64,17 +66,34 @@ Rig Convert(const json& calibration, int width, int height) {
   return rig;
 }
 
-}  // namespace
-
-Rig ReadBasaltCalibration(const std::string& path, int width, int height) {
+// What `read` makes of the file's value.
+template <typename Read>
+auto WithValue(const std::string& path, const Read& read) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read; is the path right?");
   try {
     const json whole = json::parse(file);
-    return Convert(whole.contains("value0") ? whole.at("value0") : whole, width, height);
+    return read(whole.contains("value0") ? whole.at("value0") : whole);
   } catch (const std::exception& error) {
     throw std::runtime_error(path + ": is no calibration that can be read (Basalt's JSON): " + error.what());
   }
+}
+
+}  // namespace
+
+Rig ReadBasaltCalibration(const std::string& path, int width, int height) {
+  return WithValue(path, [&](const json& value) { return Convert(value, width, height); });
+}
+
+std::optional<SE3> ReadBasaltMarker(const std::string& path) {
+  return WithValue(path, [&](const json& value) -> std::optional<SE3> {
+    if (!value.contains("T_imu_marker")) return std::nullopt;
+    return Pose(value.at("T_imu_marker"), "T_imu_marker");
+  });
+}
+
+bool HasBasaltCameras(const std::string& path) {
+  return WithValue(path, [&](const json& value) { return value.contains("intrinsics"); });
 }
 
 }  // namespace evit::formats

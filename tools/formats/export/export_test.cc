@@ -50,7 +50,7 @@ class ExportTest : public ::testing::Test {
       again.truth = job.out + ".groundtruth.txt";
     }
     ImportRecording(
-        again, [](const RecordingInfo&) {}, [](double) {});
+        again, [](const RecordingInfo&, SE3*) {}, [](double) {});
     return ReadImported(again.out);
   }
   void ExpectMade(const ImportedLog& log) const {

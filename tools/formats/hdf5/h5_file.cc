@@ -38,6 +38,25 @@ hid_t MemoryType<double>() {
   return H5T_NATIVE_DOUBLE;
 }
 
+// The value of an attribute or dataset that is one text, of fixed or any length; empty where it is none.
+template <typename ReadAs>
+std::string OneText(const H5Handle& type, const H5Handle& space, const ReadAs& read_as) {
+  if (H5Tget_class(type.get()) != H5T_STRING || H5Sget_simple_extent_npoints(space.get()) != 1) return "";
+  if (H5Tis_variable_str(type.get()) > 0) {
+    char* text = nullptr;
+    const H5Handle memory(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(memory.get(), H5T_VARIABLE);
+    H5Tset_cset(memory.get(), H5Tget_cset(type.get()));
+    if (read_as(memory.get(), &text) < 0 || text == nullptr) return "";
+    std::string value = text;
+    H5free_memory(text);
+    return value;
+  }
+  std::string value(std::min<std::size_t>(H5Tget_size(type.get()), 1 << 16), '\0');
+  if (value.size() != H5Tget_size(type.get()) || read_as(type.get(), value.data()) < 0) return "";
+  return value.substr(0, value.find('\0'));
+}
+
 }  // namespace
 
 struct H5Rows::Impl {
@@ -197,22 +216,18 @@ std::string H5File::Attribute(const std::string& name) const {
   const H5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (H5Aexists(file.get(), name.c_str()) <= 0) return "";
   const H5Handle attribute(H5Aopen(file.get(), name.c_str(), H5P_DEFAULT), H5Aclose);
-  const H5Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
-  if (H5Tget_class(type.get()) != H5T_STRING || H5Sget_simple_extent_npoints(space.get()) != 1) return "";
-  if (H5Tis_variable_str(type.get()) > 0) {
-    char* text = nullptr;
-    const H5Handle memory(H5Tcopy(H5T_C_S1), H5Tclose);
-    H5Tset_size(memory.get(), H5T_VARIABLE);
-    H5Tset_cset(memory.get(), H5Tget_cset(type.get()));
-    if (H5Aread(attribute.get(), memory.get(), &text) < 0 || text == nullptr) return "";
-    std::string value = text;
-    H5free_memory(text);
-    return value;
-  }
-  std::string value(std::min<std::size_t>(H5Tget_size(type.get()), 1 << 16), '\0');
-  if (value.size() != H5Tget_size(type.get()) || H5Aread(attribute.get(), type.get(), value.data()) < 0)
-    return "";
-  return value.substr(0, value.find('\0'));
+  return OneText(H5Handle(H5Aget_type(attribute.get()), H5Tclose),
+                 H5Handle(H5Aget_space(attribute.get()), H5Sclose),
+                 [&](hid_t type, void* out) { return H5Aread(attribute.get(), type, out); });
+}
+
+std::string H5File::Text(const std::string& name) const {
+  if (!Has(name)) return "";
+  const H5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const H5Handle dataset(H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT), H5Dclose);
+  return OneText(
+      H5Handle(H5Dget_type(dataset.get()), H5Tclose), H5Handle(H5Dget_space(dataset.get()), H5Sclose),
+      [&](hid_t type, void* out) { return ReadChunks(dataset.get(), type, H5S_ALL, H5S_ALL, out); });
 }
 
 void H5File::ReadEvents(const H5Rows& rows, std::size_t begin, std::size_t n, std::vector<H5Event>* out) {

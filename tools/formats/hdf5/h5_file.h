@@ -59,6 +59,8 @@ class H5File {
   const std::vector<std::string>& datasets() const { return datasets_; }
   /// A text of the file itself (attribute); empty where there is none.
   std::string Attribute(const std::string& name) const;
+  /// A dataset that is one text; empty where there is none.
+  std::string Text(const std::string& name) const;
   const std::string& path() const { return path_; }
 
   static void ReadEvents(const H5Rows& rows, std::size_t begin, std::size_t n, std::vector<H5Event>* out);

@@ -53,7 +53,7 @@ Utime FindOffset(Recording* recording, const RecordingInfo& info, const ImportSt
 }  // namespace
 
 ImportSummary ImportRecording(const RecordingImport& given,
-                              const std::function<void(const RecordingInfo&)>& found,
+                              const std::function<void(const RecordingInfo&, SE3*)>& found,
                               const std::function<void(double)>& progress) {
   RecordingImport job = given;
   if (job.paths.size() == 1 && std::filesystem::is_directory(job.paths.front()) &&
@@ -70,7 +70,7 @@ ImportSummary ImportRecording(const RecordingImport& given,
     info.height = job.height;
   }
   if (info.width == 0) MeasureSize(recording.get(), &info.width, &info.height);
-  found(info);
+  found(info, &job.T_marker_body);
   ImportStreams streams = recording->Streams();
   if (!job.imu.empty()) {
     ImportStreams other = StreamsOf(job.imu, true, job.choice);

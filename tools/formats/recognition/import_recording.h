@@ -23,9 +23,10 @@ struct RecordingImport : ImportTarget {
   SE3 T_marker_body;          // from the truth's body to the IMU's
 };
 
-/// As ImportLog; `found` is told what was recognised as soon as it is (with the size that is used).
+/// As ImportLog; `found` is told what was recognised as soon as it is (with the size that is used), and may
+/// still change T_marker_body.
 ImportSummary ImportRecording(const RecordingImport& job,
-                              const std::function<void(const RecordingInfo&)>& found,
+                              const std::function<void(const RecordingInfo&, SE3* T_marker_body)>& found,
                               const std::function<void(double)>& progress);
 
 }  // namespace evit::formats

@@ -22,7 +22,7 @@ class ImportRecordingTest : public ::testing::Test {
   }
   ImportSummary Import() {
     return ImportRecording(
-        job_, [&](const RecordingInfo& info) { info_ = info; }, [](double) {});
+        job_, [&](const RecordingInfo& info, SE3*) { info_ = info; }, [](double) {});
   }
 
   const TemporaryFolder folder_{"import_recording"};

@@ -1,0 +1,94 @@
+// `evit import`, the program.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+
+#include "common/config/rig_file.h"
+#include "common/evaluation/trajectory.h"
+#include "tests/helpers/h5_files.h"
+#include "tests/helpers/paths.h"
+#include "tests/helpers/temporary_folder.h"
+
+namespace evit::commands {
+namespace {
+
+using ::testing::HasSubstr;
+using Doubles = std::vector<double>;
+using Integers = std::vector<std::int64_t>;
+
+class ImportCommandTest : public ::testing::Test {
+ protected:
+  /// What `evit import ARGUMENTS` prints on both streams; its exit code is compared.
+  std::string Import(const std::string& arguments, int expected_code) const {
+    std::FILE* pipe = ::popen((test::ProgramPath("evit") + " import " + arguments + " 2>&1").c_str(), "r");
+    std::string output;
+    if (pipe == nullptr) return output;
+    std::array<char, 4096> buffer{};
+    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
+      output.append(buffer.data(), n);
+    const int status = ::pclose(pipe);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), expected_code) << output;
+    return output;
+  }
+
+  const TemporaryFolder folder_{"import_command"};
+  const std::string log_ = folder_.File("a.lcmlog");
+};
+
+// M3ED's: the events, the IMU, the truth of the left camera and the calibration of a falcon.
+std::string M3edFile(const TemporaryFolder& folder) {
+  const std::string path = folder.File("falcon.h5");
+  H5Maker file(path);
+  file.Put("prophesee/left/x", H5T_STD_U16LE, Integers{0, 1279, 2});
+  file.Put("prophesee/left/y", H5T_STD_U16LE, Integers{719, 0, 3});
+  file.Put("prophesee/left/t", H5T_STD_I64LE, Integers{10, 2000, 9000});
+  file.Put("prophesee/left/p", H5T_STD_U8LE, Integers{1, 0, 1});
+  const std::string calib = "prophesee/left/calib/";
+  file.Put(calib + "resolution", H5T_STD_I64LE, Integers{1280, 720});
+  file.Put(calib + "intrinsics", H5T_IEEE_F64LE, Doubles{1034, 1033, 629, 357});
+  file.Put(calib + "distortion_coeffs", H5T_IEEE_F64LE, Doubles{0.1, 0.2, 0.3, 0.4});
+  const hid_t text = H5Tcopy(H5T_C_S1);
+  H5Tset_size(text, 6);
+  file.Put(calib + "distortion_model", text, text, "radtan", {1});
+  H5Tclose(text);
+  file.Put(calib + "T_to_prophesee_left", H5T_IEEE_F64LE,
+           Doubles{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, 16);
+  file.Put("ovc/imu/calib/T_to_prophesee_left", H5T_IEEE_F64LE,
+           Doubles{1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, 16);
+  file.Put("ovc/imu/accel", H5T_IEEE_F64LE, Doubles{0, 0, 9.81, 0, 0, 9.81, 0, 0, 9.81}, 3);
+  file.Put("ovc/imu/omega", H5T_IEEE_F64LE, Doubles{0, 0, 0.1, 0, 0, 0.1, 0, 0, 0.1}, 3);
+  file.Put("ovc/imu/ts", H5T_STD_I64LE, Integers{0, 2500, 5000});
+  file.Put("Cn_T_C0", H5T_IEEE_F64LE, Doubles{1, 0, 0, -3, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, 16);
+  file.Put("ts", H5T_STD_I64LE, Integers{2500});
+  return path;
+}
+
+TEST_F(ImportCommandTest, ACalibrationBecomesARigFileAndTurnsTheTruthIntoTheImus) {
+  const std::string path = M3edFile(folder_), rig_path = folder_.File("rig.textproto");
+  const std::string text =
+      Import(path + " --calibration " + path + " --rig-out " + rig_path + " --out " + log_, 0);
+  EXPECT_THAT(text, HasSubstr(rig_path + ": rig of M3ED's"));
+  const Rig rig = LoadRig(rig_path);
+  EXPECT_EQ(rig.camera.fx, 1034);
+  EXPECT_DOUBLE_EQ(rig.T_body_camera.p.x(), -0.5);
+  EXPECT_DOUBLE_EQ(rig.T_marker_body.p.x(), 0.5);
+  // The camera is at x = 3, the IMU half a metre further.
+  const Trajectory truth = ReadTum(log_ + ".truth.tum");
+  ASSERT_EQ(truth.size(), 1U);
+  EXPECT_DOUBLE_EQ(truth[0].pose.p.x(), 3.5);
+}
+
+TEST_F(ImportCommandTest, ACalibrationOfAnotherCameraLeavesNothingBehind) {
+  const std::string path = M3edFile(folder_), rig_path = folder_.File("rig.textproto");
+  EXPECT_THAT(Import(path + " --size 640x480 --calibration " + path + " --rig-out " + rig_path + " --out " + log_, 1),
+              HasSubstr("is of a camera of 1280x720"));
+  EXPECT_FALSE(std::filesystem::exists(log_));
+  EXPECT_FALSE(std::filesystem::exists(rig_path));
+}
+
+}  // namespace
+}  // namespace evit::commands
