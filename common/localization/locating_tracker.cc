@@ -52,9 +52,9 @@ void LocatingTracker::Start(Utime t, const BodyState& state, const Matrix15d& in
 
 void LocatingTracker::Search(TrackerMode mode) {
   searching_ = true;
+  watching_ = false;
   mode_ = mode;
   lost_since_ = 0;
-  locator_.Restart();
 }
 
 TrackerOutput LocatingTracker::Process(const KeyframeInput& keyframe) {
@@ -64,15 +64,24 @@ TrackerOutput LocatingTracker::Process(const KeyframeInput& keyframe) {
 
 TrackerOutput LocatingTracker::ProcessTracking(const KeyframeInput& keyframe) {
   TrackerOutput output = tracker_->Process(keyframe);
-  if (output.mode != TrackerMode::kLost) {
+  if (output.mode == TrackerMode::kLost) {
+    WatchLoss(keyframe);
+  } else {
     lost_since_ = 0;
-  } else if (lost_since_ == 0) {
-    lost_since_ = keyframe.t;
-  } else if (options_.lost_s >= 0 && ToSeconds(keyframe.t - lost_since_) >= options_.lost_s) {
-    Search(TrackerMode::kLost);
   }
   if (watching_) WatchScale(keyframe, &output);
   return output;
+}
+
+// Lost, the tracker looks around where it was; after a while all over the map.
+void LocatingTracker::WatchLoss(const KeyframeInput& keyframe) {
+  if (lost_since_ == 0) {
+    lost_since_ = keyframe.t;
+    locator_.Restart();
+  }
+  locator_.AddImu(keyframe);
+  if (options_.lost_s >= 0 && ToSeconds(keyframe.t - lost_since_) >= options_.lost_s)
+    Search(TrackerMode::kLost);
 }
 
 // A place that was found although the map is of another size is no place: there is no pose then.
@@ -86,6 +95,7 @@ void LocatingTracker::WatchScale(const KeyframeInput& keyframe, TrackerOutput* o
   if (verdict == ScaleWatch::Verdict::kOpen) return;
   watching_ = false;
   if (verdict == ScaleWatch::Verdict::kAgrees) return;
+  locator_.Restart();
   locator_.DoubtScale();
   Search(TrackerMode::kLost);
   const std::string reason = SelfLocator::WrongScale(scale_.fit());

@@ -48,6 +48,7 @@ class LocatingTracker final : public MapTracker {
  private:
   void Search(TrackerMode mode);
   TrackerOutput ProcessTracking(const KeyframeInput& keyframe);
+  void WatchLoss(const KeyframeInput& keyframe);
   void WatchScale(const KeyframeInput& keyframe, TrackerOutput* output);
   TrackerOutput ProcessSearching(const KeyframeInput& keyframe);
 

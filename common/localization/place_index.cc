@@ -14,8 +14,9 @@ namespace {
 
 using namespace panorama;  // NOLINT(google-build-using-namespace): this file is about nothing else
 
-constexpr std::size_t kBlock = 256;                // places that a thread takes at a time
-constexpr float kBehind = 1.15F, kBehindM = 0.1F;  // farther by that much than what lies around it: hidden
+constexpr std::size_t kBlock = 256;                   // places that a thread takes at a time
+constexpr double kRoomHeight = 2, kBeyondRoom = 0.2;  // m
+constexpr float kBehind = 1.15F, kBehindM = 0.1F;     // farther by that much than what lies around it: hidden
 
 // Place in the panorama and distance (0: out of range) of each point.
 EVIT_MULTIVERSION void LookAt(const PointArrays& points, const float* at, float near2, float far2,
@@ -37,6 +38,7 @@ class View {
       : edges_(edges),
         near2_(static_cast<float>(options.min_depth * options.min_depth)),
         far2_(static_cast<float>(options.max_depth * options.max_depth)),
+        most_(options.max_visible),
         places_(edges.size()),
         depths_(edges.size()) {
     points_.Resize(edges.size());
@@ -65,6 +67,10 @@ class View {
     std::sort(visible->begin(), visible->end(), [](const auto& a, const auto& b) {
       return a.stacked_row != b.stacked_row ? a.stacked_row < b.stacked_row : a.column < b.column;
     });
+    const std::size_t all = visible->size();
+    if (all <= most_) return;
+    for (std::size_t k = 0; k < most_; ++k) (*visible)[k] = (*visible)[k * all / most_];
+    visible->resize(most_);
   }
 
  private:
@@ -101,6 +107,7 @@ class View {
 
   const std::vector<EdgePoint>& edges_;
   float near2_, far2_;
+  std::size_t most_;
   PointArrays points_;
   std::vector<std::int32_t> places_;  // of each edge
   std::vector<float> depths_;         // m; 0: out of range
@@ -114,8 +121,12 @@ std::vector<Eigen::Vector3f> Grid(const std::vector<EdgePoint>& edges, const Pla
     low = low.cwiseMin(e.at.cast<double>());
     high = high.cwiseMax(e.at.cast<double>());
   }
-  low.array() -= options.beyond;
-  high.array() += options.beyond;
+  low.head<2>().array() -= options.beyond;
+  high.head<2>().array() += options.beyond;
+  // A map that is as high as a room has a floor and a ceiling: nobody looks from beyond.
+  const double above = high.z() - low.z() < kRoomHeight ? options.beyond : kBeyondRoom;
+  low.z() -= above;
+  high.z() += above;
   const Eigen::Vector3d size = high - low;
   *spacing = std::max(options.spacing, std::cbrt(size.prod() / static_cast<double>(options.max_places)));
   Eigen::Vector3i n;
@@ -152,6 +163,9 @@ PlaceIndex::PlaceIndex(const PointMap& map, const PlaceIndexOptions& options,
     const std::lock_guard<std::mutex> lock(reporting);
     if (progress) progress(static_cast<double>(block * kBlock) / static_cast<double>(grid.size()));
   });
+  std::size_t total = 0;
+  for (const std::vector<Edge>& edges_seen : visible) total += edges_seen.size();
+  edges_.reserve(total);
   for (std::size_t k = 0; k < grid.size(); ++k) {
     if (visible[k].empty()) continue;
     const auto begin = static_cast<std::uint32_t>(edges_.size());
@@ -159,7 +173,6 @@ PlaceIndex::PlaceIndex(const PointMap& map, const PlaceIndexOptions& options,
     places_.push_back({grid[k], begin, static_cast<std::uint32_t>(edges_.size())});
     std::vector<Edge>().swap(visible[k]);
   }
-  edges_.shrink_to_fit();
 }
 
 std::size_t PlaceIndex::MemoryBytes() const {

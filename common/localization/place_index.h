@@ -15,15 +15,17 @@ struct PlaceIndexOptions {
   EdgePointOptions edges;
   double spacing = 0.15;            // m: between neighbouring places, larger where that makes too many
   double beyond = 0.75;             // m: places lie in the map's box and so far around it
-  std::size_t max_places = 30'000;  // in all
+  std::size_t max_places = 60'000;  // in all
   double min_depth = 0.2;           // m: edges nearer than that are left out
   double max_depth = 12;            // m
   int min_visible = 40;             // edges, from a place worth keeping
+  std::size_t max_visible = 1024;   // edges of a place: of more than that, as many, evenly chosen
   int threads = 2;
 };
 
 /// What an upright viewer sees of a map's edges from each place of a grid: made once for a map, whatever the
-/// rig. 2 bytes for each visible edge of each place, at most some 50 MB.
+/// rig. 2 bytes for each visible edge of each place: at most 123 MB with the limits of the options, and twice
+/// that while it is made.
 class PlaceIndex {
  public:
   /// An edge in the panorama of a place.

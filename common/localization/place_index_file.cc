@@ -78,7 +78,7 @@ std::uint64_t FingerprintOf(const PointMap& map, const PlaceIndexOptions& o) {
     hash.AddValue(size);
   for (const double value : {o.edges.spacing, o.edges.radius, o.spacing, o.beyond, o.min_depth, o.max_depth})
     hash.AddValue(value);
-  for (const std::size_t most : {o.edges.max_points, o.max_places}) hash.AddValue(most);
+  for (const std::size_t most : {o.edges.max_points, o.max_places, o.max_visible}) hash.AddValue(most);
   hash.Add(map.points.data(), map.points.size() * sizeof map.points[0]);
   return hash.value();
 }

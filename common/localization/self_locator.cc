@@ -59,12 +59,16 @@ void SelfLocator::SetPrior(const PlacePrior& prior) {
   if (dropped && places_.empty()) searched_ = 0;
 }
 
-void SelfLocator::AddKeyframe(const KeyframeInput& keyframe) {
+void SelfLocator::AddImu(const KeyframeInput& keyframe) {
   const Utime kept = static_cast<Utime>(options_.up_s * 1e6) + 2 * kPatience;
   if (!imu_.Add(keyframe, 1e3 * tracker_.failure.max_imu_gap_ms, kept)) {
     Restart();
     imu_.Add(keyframe, 1e3 * tracker_.failure.max_imu_gap_ms, kept);
   }
+}
+
+void SelfLocator::AddKeyframe(const KeyframeInput& keyframe) {
+  AddImu(keyframe);
   if (!views_.empty() && keyframe.t - views_.front().t > kPatience) {
     // The answer will be too late to be of use, or there is nobody who answers.
     views_.clear();

@@ -43,6 +43,8 @@ class SelfLocator {
 
   /// Begins from nothing.
   void Restart();
+  /// Takes a keyframe's IMU samples only, so that a search that begins later knows at once which way is up.
+  void AddImu(const KeyframeInput& keyframe);
   void AddKeyframe(const KeyframeInput& keyframe);
 
   /// What is known of the place, from now on: what is followed and cannot be is given up.

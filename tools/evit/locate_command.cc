@@ -16,6 +16,7 @@
 #include "tools/evit/place_options.h"
 #include "tools/locate/candidates_picture.h"
 #include "tools/locate/locator_run.h"
+#include "tools/locate/start_tally.h"
 
 namespace evit::commands {
 namespace {
@@ -68,8 +69,7 @@ std::string Held(const locate::LocatorResult& result) {
 bool LocateOften(const LocateOptions& o, const locate::RecordedStreams& streams,
                  const std::function<locate::LocatorResult(Utime)>& run) {
   const Trajectory truth = ReadTum(o.truth);
-  int found = 0, wrong = 0, within = 0;
-  double search = 0, cpu = 0;
+  locate::StartTally tally;
   const double span = ToSeconds(streams.end() - streams.begin()) - 1.5;  // less is no time to be sure
   if (span <= 0) throw std::runtime_error(o.log + ": is shorter than 1.5 s: leave --starts out");
   for (int k = 0; k < o.starts; ++k) {
@@ -77,18 +77,13 @@ bool LocateOften(const LocateOptions& o, const locate::RecordedStreams& streams,
     const locate::LocatorResult result = run(streams.begin() + static_cast<Utime>(at * 1e6));
     bool right = false;
     const std::string text = result.found ? Compared(result, truth, &right) : result.progress;
-    found += right ? 1 : 0;
-    within += right && result.after_s <= 2 ? 1 : 0;
-    wrong += result.found && !right ? 1 : 0;
-    search += result.search_s;
-    cpu += result.cpu_s;
+    tally.Add(result, right);
     std::printf("start at %6.2f s: %s after %.2f s; %s%s\n", at, result.found ? "found" : "not found",
                 result.after_s, text.c_str(), Held(result).c_str());
     std::fflush(stdout);
   }
-  std::printf("starts %d right %d within_2s %d wrong %d search_s %.2f cpu_s %.2f\n", o.starts, found, within,
-              wrong, search / o.starts, cpu / o.starts);
-  return wrong == 0;
+  std::printf("%s\n", tally.Line().c_str());
+  return tally.wrong() == 0;
 }
 
 int Locate(const LocateOptions& o) {

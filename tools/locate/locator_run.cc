@@ -98,6 +98,8 @@ LocatorResult RunLocator(const RecordedStreams& streams, const PreparedMap& map,
   const std::clock_t started = std::clock();
   Utime end = std::min(streams.end(), begin + static_cast<Utime>(seconds * 1e6));
   LocatorResult result;
+  std::size_t n_events = 0;
+  Utime played = 0;
   Session session(map, rig, options, locating, threads);
   KeyframeBuilder builder(rig, {options.keyframes, options.surface, Keyframe::Encoding::kTimeSurface}, true);
   auto sample = std::lower_bound(streams.imu().begin(), streams.imu().end(), begin,
@@ -105,6 +107,8 @@ LocatorResult RunLocator(const RecordedStreams& streams, const PreparedMap& map,
   for (Utime t = begin; t < end && result.withdrawn.empty(); t += kPiece) {
     const Utime from = t - rig.camera_time_offset, to = from + kPiece;  // in the camera's clock
     const EventArray events = streams.Events(from, to);
+    n_events += events.size();
+    played += kPiece;
     builder.AddEvents(events, events.size() == 0 ? to : std::max(to, events.t.back()));
     for (; sample != streams.imu().end() && sample->t <= t + kPiece; ++sample) builder.AddImu(*sample);
     while (auto keyframe = builder.Next()) {
@@ -126,6 +130,7 @@ LocatorResult RunLocator(const RecordedStreams& streams, const PreparedMap& map,
       if (tracking) end = std::min(streams.end(), result.t + static_cast<Utime>(hold_s * 1e6));
     }
   }
+  if (played > 0) result.events_per_s = static_cast<double>(n_events) / ToSeconds(played);
   result.cpu_s = static_cast<double>(std::clock() - started) / CLOCKS_PER_SEC;
   return result;
 }

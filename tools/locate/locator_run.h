@@ -34,6 +34,7 @@ struct LocatorResult {
   std::string progress;                    // what the tracker said last
   int searches = 0;                        // of the whole map
   double search_s = 0;                     // for one of them, wall clock
+  double events_per_s = 0;                 // of the part that was played
   double cpu_s = 0;                        // in all, without preparing the map
   std::vector<PlaceCandidate> candidates;  // the first search's
   cv::Mat surface;                         // that it was about
