@@ -30,6 +30,9 @@ class LocatingTracker final : public MapTracker {
   VisibilityQuery QueryAfter(const KeyframeInput& keyframe) const override {
     return tracker_->QueryAfter(keyframe);
   }
+  bool Suffices(const VisibilityQuery& answered, const VisibilityQuery& query) const override {
+    return !searching_ && tracker_->Suffices(answered, query);
+  }
   void AddVisible(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& points) override {
     tracker_->AddVisible(ids, points);
   }

@@ -1,6 +1,7 @@
 #include "common/tracking/active_points.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -72,6 +73,23 @@ void ActivePoints::Retain(const std::vector<SE3>& T_map_body, double margin_px) 
   }
   ids_.resize(kept);
   points_.Resize(kept);
+}
+
+double ActivePoints::Shift(const SE3& from, const SE3& to) const {
+  constexpr std::size_t kSome = 200, kFewest = 20;  // points
+  const SE3 T_from = T_camera_body_ * from.Inverse(), T_to = T_camera_body_ * to.Inverse();
+  std::vector<double> shifts;
+  for (std::size_t k = 0; k < ids_.size(); k += 1 + ids_.size() / kSome) {
+    const Eigen::Vector3d p = points_.At(k).cast<double>();
+    Eigen::Vector2d before, after;
+    if (!camera_.Project(T_to * p, &after) || !camera_.Contains(after)) continue;
+    shifts.push_back(camera_.Project(T_from * p, &before) ? (after - before).norm()
+                                                          : std::numeric_limits<double>::infinity());
+  }
+  if (shifts.size() < kFewest) return std::numeric_limits<double>::infinity();
+  const auto most = shifts.begin() + static_cast<std::ptrdiff_t>(shifts.size() * 9 / 10);
+  std::nth_element(shifts.begin(), most, shifts.end());
+  return *most;
 }
 
 std::vector<Eigen::Vector3f> ActivePoints::Sample(const SE3& T_map_body, int count,

@@ -27,6 +27,10 @@ class ActivePoints {
   /// `salt`, pose and the set alone, not on the order in which points came.
   std::vector<Eigen::Vector3f> Sample(const SE3& T_map_body, int count, std::uint64_t salt) const;
 
+  /// By how many pixels points in view from `to` move over the image on the way there from `from` (poses of
+  /// the body): what nine of ten stay below. Infinite where too few are in view to tell.
+  double Shift(const SE3& from, const SE3& to) const;
+
   std::size_t size() const { return ids_.size(); }
   void Clear();
 

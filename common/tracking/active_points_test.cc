@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -46,6 +47,22 @@ TEST(ActivePoints, MergeHoldsEachPointOnce) {
   a.Merge(cloud.ids, cloud.points);
   a.Merge(cloud.ids, cloud.points);
   EXPECT_EQ(a.size(), cloud.ids.size());
+}
+
+TEST(ActivePoints, ShiftIsHowFarPointsMoveOverTheImage) {
+  const Cloud cloud;
+  ActivePoints a = Make();
+  EXPECT_EQ(a.Shift(SE3(), SE3()), std::numeric_limits<double>::infinity());  // none in view
+  a.Merge(cloud.ids, cloud.points);
+  EXPECT_EQ(a.Shift(SE3(), SE3()), 0);
+  const double focal = synthetic::VgaCamera().fx;
+  const SE3 turned(ExpSO3({0, 0, 0.02}), Eigen::Vector3d::Zero());
+  EXPECT_GT(a.Shift(SE3(), turned), 0.02 * focal * 0.9);
+  EXPECT_LT(a.Shift(SE3(), turned), 0.02 * focal * 2.1);  // farther at the image's border
+  const SE3 nearer(Eigen::Quaterniond::Identity(), {0, 0.05, 0});
+  EXPECT_GT(a.Shift(SE3(), nearer), 2);
+  const SE3 away(ExpSO3({0, 0, EIGEN_PI}), Eigen::Vector3d::Zero());
+  EXPECT_EQ(a.Shift(away, SE3()), std::numeric_limits<double>::infinity());  // behind the camera then
 }
 
 TEST(ActivePoints, RetainDropsWhatNoPoseSees) {

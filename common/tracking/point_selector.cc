@@ -26,6 +26,14 @@ VisibilityQuery PointSelector::QueryFrom(const SE3& T_map_body) const {
   return query;
 }
 
+bool PointSelector::Suffice(const VisibilityQuery& answered, const VisibilityQuery& query) const {
+  constexpr double kShare = 0.75;  // of the margin; a tenth of the points move farther
+  if (answered.max_points != query.max_points || answered.margin_px != query.margin_px) return false;
+  const SE3 T_camera_body = T_body_camera_.Inverse();
+  return active_.Shift(answered.T_map_camera * T_camera_body, query.T_map_camera * T_camera_body) <=
+         kShare * query.margin_px;
+}
+
 void PointSelector::Add(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& points,
                         const std::vector<SE3>& T_map_body) {
   active_.Retain(T_map_body, 0);

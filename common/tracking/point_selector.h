@@ -26,6 +26,9 @@ class PointSelector {
 
   /// The view of the map from this pose of the body.
   VisibilityQuery QueryFrom(const SE3& T_map_body) const;
+  /// Whether the points at hand, the answer to `answered`, do for `query` too: the view has moved less than
+  /// its margin, so that nothing can have come into the image that was not in view then.
+  bool Suffice(const VisibilityQuery& answered, const VisibilityQuery& query) const;
   /// Answer to it (ids: indices into the map; points: map frame, m). Of the points so far those stay that are
   /// in view from one of `T_map_body`, so that a point does not come and go with the random subset of each
   /// answer.

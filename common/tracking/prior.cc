@@ -15,16 +15,22 @@ Matrix15d MinusJacobian(const Vector15d& d) {
 
 }  // namespace
 
+PriorTerm EvaluatePrior(const StatePrior& prior, const BodyState& state) {
+  const Vector15d d = Minus(state, prior.mean);
+  const Matrix15d J = MinusJacobian(d), weighted = J.transpose() * prior.information;
+  const Vector15d gradient = weighted * d;
+  return {0.5 * d.dot(prior.information * d), gradient, weighted * J};
+}
+
 StatePrior Marginalize(const StatePrior& prior, const AlignmentTerm& alignment, const ImuTerm& imu,
                        const BodyState& i, const BodyState& j) {
   Matrix15d Ji, Jj;
   const Vector15d r = imu.Evaluate(i, j, &Ji, &Jj);
-  const Vector15d d = Minus(i, prior.mean);
-  const Matrix15d Jd = MinusJacobian(d);
+  const PriorTerm known = EvaluatePrior(prior, i);
 
-  Matrix15d Hii = Jd.transpose() * prior.information * Jd + Ji.transpose() * Ji;
+  Matrix15d Hii = known.hessian + Ji.transpose() * Ji;
   Hii.topLeftCorner<6, 6>() += alignment.hessian;
-  Vector15d gi = Jd.transpose() * prior.information * d + Ji.transpose() * r;
+  Vector15d gi = known.gradient + Ji.transpose() * r;
   gi.head<6>() += alignment.gradient;
   const Matrix15d Hij = Ji.transpose() * Jj;
   const Matrix15d Hjj = Jj.transpose() * Jj;
@@ -38,11 +44,7 @@ StatePrior Marginalize(const StatePrior& prior, const AlignmentTerm& alignment, 
   // are.
   const Matrix15d ridge = 1e-9 * Matrix15d(next.information.diagonal().cwiseMax(1e-12).asDiagonal());
   const Vector15d step = -Solve(Matrix15d(next.information + ridge), g);
-  next.mean = j;
-  next.mean.T_map_body = j.T_map_body.Plus(step.head<6>());
-  next.mean.velocity += step.segment<3>(6);
-  next.mean.bias.gyro += step.segment<3>(9);
-  next.mean.bias.accel += step.segment<3>(12);
+  next.mean = Plus(j, step);
   return next;
 }
 

@@ -11,6 +11,15 @@ struct StatePrior {
   Matrix15d information = Matrix15d::Zero();
 };
 
+/// Its term of an objective at `state`: d^T information d / 2 with d = Minus(state, mean), and its
+/// derivatives over the tangent of `state`.
+struct PriorTerm {
+  double cost;
+  Vector15d gradient;
+  Matrix15d hessian;
+};
+PriorTerm EvaluatePrior(const StatePrior& prior, const BodyState& state);
+
 /// Removes the oldest state of a chain: combines its prior, its event alignment and the IMU term to the next
 /// state, linearised at the given estimates, into a prior on the next state (Schur complement). Because
 /// neighbours are joined by IMU terms alone, no other state is touched.

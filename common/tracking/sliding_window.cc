@@ -1,11 +1,6 @@
 #include "common/tracking/sliding_window.h"
 
-#include <ceres/problem.h>
-#include <ceres/solver.h>
-
 #include "common/tracking/alignment_information.h"
-#include "common/tracking/ceres_factors.h"
-#include "common/tracking/pose_manifold.h"
 
 namespace evit {
 
@@ -43,47 +38,73 @@ void SlidingWindow::Push(WindowNode node) {
   nodes_.push_back(std::move(node));
 }
 
-SlidingWindow::Summary SlidingWindow::Solve() {
-  std::vector<StateBlocks> blocks;
-  blocks.reserve(nodes_.size());
-  for (WindowNode& node : nodes_) {
-    blocks.push_back(ToBlocks(node.state));
-    if (node.imu && node.imu->NeedsRepropagation(node.state.bias)) node.imu->Repropagate(node.state.bias);
-  }
-  ceres::Problem problem;
-  for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    const WindowNode& node = nodes_[n];
-    problem.AddParameterBlock(blocks[n].pose.data(), 7, new PoseManifold);
-    problem.AddParameterBlock(blocks[n].motion.data(), 9);
-    problem.AddResidualBlock(new EventAlignmentFactor(&alignment_, node.field.get(), 0, &node.points),
-                             nullptr, blocks[n].pose.data());
-    if (n > 0) {
-      problem.AddResidualBlock(new ImuFactor(Term(node)), nullptr, blocks[n - 1].pose.data(),
-                               blocks[n - 1].motion.data(), blocks[n].pose.data(), blocks[n].motion.data());
+// Most of the nodes hardly move from one solve to the next, and hardly any in its last iterations. Where a
+// pose changes the points' residuals by so little the quadratic function around the last one says the same.
+AlignmentTerm SlidingWindow::AlignNear(const SE3& T_map_body, WindowNode* node) const {
+  constexpr double kSame = 3e-3;  // of a residual's standard deviation, root mean square over the points
+  LocalAlignment& local = node->local;
+  if (local.known) {
+    Vector6d d;
+    d << T_map_body.p - local.T_map_body.p, LogSO3(local.T_map_body.q.conjugate() * T_map_body.q);
+    const Vector6d bent = local.term.hessian * d;
+    if (d.dot(bent) <= kSame * kSame * static_cast<double>(node->points.size())) {
+      AlignmentTerm term = local.term;
+      term.cost += d.dot(term.gradient + 0.5 * bent);
+      term.gradient += bent;
+      return term;
     }
   }
-  if (options_.first_node == WindowOptions::FirstNode::kPrior) {
-    problem.AddResidualBlock(new PriorFactor(prior_), nullptr, blocks[0].pose.data(),
-                             blocks[0].motion.data());
-  } else if (nodes_.size() > 1) {
-    problem.SetParameterBlockConstant(blocks[0].pose.data());
-    problem.SetParameterBlockConstant(blocks[0].motion.data());
-  }
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = options_.max_iterations;
-  options.function_tolerance = 1e-5;
-  options.logging_type = ceres::SILENT;
-  if (time_budget_ > 0) options.max_solver_time_in_seconds = time_budget_;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  local = {true, T_map_body, EvaluateAlignment(alignment_, *node->field, 0, node->points, T_map_body, true)};
+  return local.term;
+}
 
-  Summary result;
-  result.iterations = static_cast<int>(summary.iterations.size());
-  result.usable = summary.IsSolutionUsable();
+ChainModel SlidingWindow::ModelAt(const std::vector<BodyState>& states, const std::vector<ImuTerm>& imu) {
+  ChainModel model(states.size());
+  for (std::size_t n = 0; n < states.size(); ++n) {
+    const AlignmentTerm term = AlignNear(states[n].T_map_body, &nodes_[n]);
+    model.cost += term.cost;
+    model.gradient[n].head<6>() += term.gradient;
+    model.diagonal[n].topLeftCorner<6, 6>() += term.hessian;
+    if (n == 0) continue;
+    Matrix15d before, here;
+    const Vector15d r = imu[n - 1].Evaluate(states[n - 1], states[n], &before, &here);
+    model.cost += 0.5 * r.squaredNorm();
+    model.gradient[n - 1] += before.transpose() * r;
+    model.gradient[n] += here.transpose() * r;
+    model.diagonal[n - 1] += before.transpose() * before;
+    model.diagonal[n] += here.transpose() * here;
+    model.upper[n - 1] = before.transpose() * here;
+  }
+  if (options_.first_node == WindowOptions::FirstNode::kPrior) {
+    const PriorTerm prior = EvaluatePrior(prior_, states[0]);
+    model.cost += prior.cost;
+    model.gradient[0] += prior.gradient;
+    model.diagonal[0] += prior.hessian;
+  } else if (states.size() > 1) {  // it stays where it is
+    model.gradient[0].setZero();
+    model.diagonal[0].setIdentity();
+    model.upper[0].setZero();
+  }
+  return model;
+}
+
+SlidingWindow::Summary SlidingWindow::Solve() {
+  std::vector<BodyState> states;
+  std::vector<ImuTerm> imu;
+  for (WindowNode& node : nodes_) {
+    states.push_back(node.state);
+    if (node.imu && node.imu->NeedsRepropagation(node.state.bias)) node.imu->Repropagate(node.state.bias);
+    if (states.size() > 1) imu.push_back(Term(node));
+  }
+  ChainOptions options;
+  options.max_iterations = options_.max_iterations;
+  options.time_budget = time_budget_;
+  const ChainSummary summary = MinimizeChain(
+      options, [&](const std::vector<BodyState>& at) { return ModelAt(at, imu); }, &states);
+  const Summary result{summary.iterations, summary.usable};
   if (!result.usable) return result;
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    nodes_[n].state = FromBlocks(blocks[n]);
+    nodes_[n].state = states[n];
     nodes_[n].state.T_map_body.q.normalize();
   }
   // Once per keyframe is enough: later moves of a node are far smaller than what would change its curvature.
@@ -97,6 +118,7 @@ void SlidingWindow::DropNewestAlignment(const std::vector<BodyState>& states) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) nodes_[n].state = states[n];
   nodes_.back().points = {};
   nodes_.back().alignment = {};
+  nodes_.back().local = {};
 }
 
 Matrix15d SlidingWindow::NewestInformation() const {

@@ -4,10 +4,18 @@
 #include <memory>
 #include <vector>
 
+#include "common/tracking/chain_solver.h"
 #include "common/tracking/prior.h"
 #include "common/tracking/tracker_options.h"
 
 namespace evit {
+
+/// A keyframe's alignment term around the pose where it was last evaluated.
+struct LocalAlignment {
+  bool known = false;
+  SE3 T_map_body;
+  AlignmentTerm term;
+};
 
 /// One keyframe in the window.
 struct WindowNode {
@@ -18,6 +26,7 @@ struct WindowNode {
   AlignmentPoints points;               // of the map, in view of this keyframe
   std::shared_ptr<Preintegration> imu;  // from the previous node to this one; unused in the oldest
   AlignmentTerm alignment = {};         // as of its first solve; cost 0: not yet known
+  LocalAlignment local = {};            // the solver's
 };
 
 /// Joint optimisation of the last N keyframes (paper Sec. III-D): event alignment in each, IMU terms between
@@ -55,6 +64,9 @@ class SlidingWindow {
   /// Prior on nodes_[n + 1] from everything up to nodes_[n], given the prior on nodes_[n].
   StatePrior Eliminate(const StatePrior& prior, const AlignmentTerm& alignment, std::size_t n) const;
   AlignmentTerm Align(const WindowNode& node) const;
+  /// The node's alignment term for the solver, with the node at this pose.
+  AlignmentTerm AlignNear(const SE3& T_map_body, WindowNode* node) const;
+  ChainModel ModelAt(const std::vector<BodyState>& states, const std::vector<ImuTerm>& imu);
 
   AlignmentSettings alignment_;
   double gravity_;

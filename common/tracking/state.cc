@@ -38,4 +38,13 @@ Vector15d Minus(const BodyState& b, const BodyState& a) {
   return d;
 }
 
+BodyState Plus(const BodyState& state, const Vector15d& step) {
+  BodyState moved;
+  moved.T_map_body = state.T_map_body.Plus(step.head<6>());
+  moved.velocity = state.velocity + step.segment<3>(6);
+  moved.bias.gyro = state.bias.gyro + step.segment<3>(9);
+  moved.bias.accel = state.bias.accel + step.segment<3>(12);
+  return moved;
+}
+
 }  // namespace evit

@@ -36,5 +36,7 @@ SE3 PoseAfter(const BodyState& state, const Eigen::Vector3d& rate, double second
 
 /// Difference b minus a in the tangent of a, 15 numbers.
 Vector15d Minus(const BodyState& b, const BodyState& a);
+/// `state` moved by a vector of its tangent.
+BodyState Plus(const BodyState& state, const Vector15d& step);
 
 }  // namespace evit

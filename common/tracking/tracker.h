@@ -24,6 +24,9 @@ class Tracker final : public MapTracker {
   void Start(Utime t, const BodyState& state, const Matrix15d& information) override;
   VisibilityQuery NextQuery() const override;
   VisibilityQuery QueryAfter(const KeyframeInput& keyframe) const override;
+  bool Suffices(const VisibilityQuery& answered, const VisibilityQuery& query) const override {
+    return mode_ == TrackerMode::kTracking && points_.Suffice(answered, query);
+  }
   void AddVisible(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& points) override;
   TrackerOutput Process(const KeyframeInput& keyframe) override;
   void set_point_share(double share) override { points_.set_share(share); }

@@ -6,16 +6,10 @@
 
 #include "common/bus/subscribe.h"
 #include "common/imu/preintegration.h"
-#include "common/wire/map_wire.h"
 #include "common/wire/tracker_wire.h"
 
 namespace evit {
 namespace {
-
-// An answer is waited for so long in real time, and not at all where map_server has died: that would cost
-// keyframes again and again. The tracker continues with the points at hand.
-constexpr RequestClient<MapPointsRequest>::Patience kPatience{std::chrono::milliseconds(20),
-                                                              std::chrono::milliseconds(60)};
 
 std::unique_ptr<MapTracker> TrackerFor(const WindowOptimizer::Settings& settings) {
   std::unique_ptr<MapTracker> tracker = MakeTracker(settings.rig, settings.tracker, settings.T_map_body);
@@ -34,7 +28,7 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
       imu_(&status_),
       imu_rate_pose_(settings.rig.gravity),
       hints_(&status_),
-      map_(bus, channels, &status_, kPatience, Clock::now()),
+      map_(bus, channels, &status_, Clock::now()),
       places_(bus, channels, &status_, settings.rig, Clock::now()),
       load_(&status_),
       restart_(settings.lossless ? "" : settings.checkpoint),
@@ -51,7 +45,7 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
     worker_.at_rest()->Start(restart_.checkpoint()->state);
     publisher_.PublishAnnouncement(restart_.Announce(Clock::now()));
   }
-  AskForPoints(worker_.at_rest()->NextQuery());
+  AskForPoints();
 }
 
 void WindowOptimizer::OnKeyframe(const std::uint8_t* data, std::size_t size) {
@@ -119,7 +113,7 @@ void WindowOptimizer::StartWork(QueuedKeyframe next) {
   if (!settings_.lossless) LimitWork(next, tracking);
   KeyframeInput input = InputOf(next.message);
   if (settings_.lossless && tracking) PublishPoses(input.imu, tracker->state());
-  if (tracking) AskForPoints(tracker->QueryAfter(input));
+  if (tracking) map_.AskAhead(*tracker, input, Clock::now());
   asked_ahead_ = tracking;
   worker_.Start(std::move(next), std::move(input));
 }
@@ -148,7 +142,7 @@ bool WindowOptimizer::FinishWork(TrackerWorker::Wait wait) {
   if (!processed) return false;
   Report(*processed);
   const bool tracking = processed->output.mode == TrackerMode::kTracking;
-  if (!asked_ahead_ || !tracking) AskForPoints(worker_.at_rest()->NextQuery());
+  if (!asked_ahead_ || !tracking) AskForPoints();
   UsePoints();
   UseHint();
   places_.Serve(worker_.at_rest(), Clock::now());
@@ -182,18 +176,11 @@ void WindowOptimizer::PublishPoses(const std::vector<ImuSample>& samples, const 
   }
 }
 
-void WindowOptimizer::AskForPoints(const VisibilityQuery& query) {
-  map_query_t message = ToMessage(query);
-  message.utime = worker_.at_rest()->state_time();
-  map_.Ask(message, Clock::now());
-}
+void WindowOptimizer::AskForPoints() { map_.Ask(*worker_.at_rest(), Clock::now()); }
 
 // Those that come while a keyframe is in work are for the one after it.
 void WindowOptimizer::UsePoints() {
-  MapTracker* const tracker = worker_.at_rest();
-  if (tracker == nullptr) return;
-  const std::optional<map_points_t> answer = map_.TakeAnswer();
-  if (answer) tracker->AddVisible(answer->id, PointsOf(*answer));
+  if (worker_.at_rest() != nullptr) map_.Serve(worker_.at_rest());
 }
 
 void WindowOptimizer::UseHint() {
@@ -204,7 +191,7 @@ void WindowOptimizer::UseHint() {
   tracker->Start(*T_map_body);
   restart_.Done();
   imu_rate_pose_.Stop();
-  AskForPoints(tracker->NextQuery());
+  AskForPoints();
 }
 
 // Nothing is in work before all keyframes since the checkpoint are here.
@@ -239,7 +226,7 @@ void WindowOptimizer::StartFromCheckpoint() {
   if (predicted || !searches) worker_.at_rest()->Start(predicted.value_or(initial));
   ++status_.Counter(predicted ? "checkpoint.used" : "checkpoint.stale");
   restart_.Done();
-  AskForPoints(worker_.at_rest()->NextQuery());
+  AskForPoints();
 }
 
 void WindowOptimizer::Tick() {

@@ -18,9 +18,9 @@
 #include "services/window_optimizer/keyframe_inbox.h"
 #include "services/window_optimizer/keyframe_queue.h"
 #include "services/window_optimizer/load_limiter.h"
+#include "services/window_optimizer/map_client.h"
 #include "services/window_optimizer/place_client.h"
 #include "services/window_optimizer/pose_hint_inbox.h"
-#include "services/window_optimizer/request_client.h"
 #include "services/window_optimizer/restart_coordinator.h"
 #include "services/window_optimizer/result_publisher.h"
 #include "services/window_optimizer/tracker_worker.h"
@@ -31,7 +31,7 @@ namespace evit {
 /// each IMU sample and MAP_QUERY out. The tracker itself is common/tracking.
 ///
 /// The points for the next keyframe are asked for before one is processed, so that map_server works
-/// meanwhile. Lossless: a keyframe waits for that answer, and keyframes are taken in exact order. Real time:
+/// meanwhile, and only where the view has moved so far that those at hand do not suffice. Lossless: a keyframe waits for that answer, and keyframes are taken in exact order. Real time:
 /// nothing waits longer than 20 ms for an answer, work is cut down while keyframes wait (LoadLimiter), and
 /// the IMU samples of a keyframe that was dropped all the same are bridged from the service's own. Restarted
 /// with a checkpoint it asks frame_builder for the keyframes since and continues as if nothing had been
@@ -73,7 +73,7 @@ class WindowOptimizer : public Service {
   void Report(const ProcessedKeyframe& processed);
   void PublishPoses(const std::vector<ImuSample>& samples, const BodyState& from);
 
-  void AskForPoints(const VisibilityQuery& query);
+  void AskForPoints();
   void UsePoints();
   void UseHint();
   void CatchUp();
@@ -86,7 +86,7 @@ class WindowOptimizer : public Service {
   ImuInbox imu_;
   ImuRatePose imu_rate_pose_;  // real time only
   PoseHintInbox hints_;
-  RequestClient<MapPointsRequest> map_;
+  MapClient map_;
   PlaceClient places_;
   LoadLimiter load_;  // real time only
   RestartCoordinator restart_;

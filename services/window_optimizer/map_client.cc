@@ -1,0 +1,41 @@
+#include "services/window_optimizer/map_client.h"
+
+#include "common/wire/map_wire.h"
+
+namespace evit {
+namespace {
+
+// An answer is waited for so long in real time, and not at all where map_server has died: that would cost
+// keyframes again and again. The tracker continues with the points at hand.
+constexpr RequestClient<MapPointsRequest>::Patience kPatience{std::chrono::milliseconds(20),
+                                                              std::chrono::milliseconds(60)};
+
+}  // namespace
+
+MapClient::MapClient(Bus* bus, const Channels& channels, StatusReporter* status, Clock::time_point now)
+    : status_(status), requests_(bus, channels, status, kPatience, now) {}
+
+void MapClient::Ask(const MapTracker& tracker, const VisibilityQuery& query, Clock::time_point now) {
+  map_query_t message = ToMessage(query);
+  message.utime = tracker.state_time();
+  asked_ = query;
+  requests_.Ask(message, now);
+}
+
+void MapClient::AskAhead(const MapTracker& tracker, const KeyframeInput& keyframe, Clock::time_point now) {
+  const VisibilityQuery query = tracker.QueryAfter(keyframe);
+  if (answered() && served_ && tracker.Suffices(*served_, query)) {
+    ++status_->Counter("MAP_QUERY.spared");
+  } else {
+    Ask(tracker, query, now);
+  }
+}
+
+void MapClient::Serve(MapTracker* tracker) {
+  const std::optional<map_points_t> answer = requests_.TakeAnswer();
+  if (!answer) return;
+  tracker->AddVisible(answer->id, PointsOf(*answer));
+  served_ = asked_;
+}
+
+}  // namespace evit
