@@ -64,7 +64,7 @@ Consistency ConsistencyOf(const Trajectory& truth, const Trajectory& estimate,
 
 std::string ConsistencyText(const Consistency& c) {
   if (c.pose.n == 0) return "consistency: no pose has both truth and a covariance";
-  std::string text = "consistency, NEES/dof (1: honest):";
+  std::string text = "consistency, NEES/dof (1: consistent):";
   for (const auto& [name, nees] : {std::pair("position", &c.position),
                                    std::pair("orientation", &c.orientation), std::pair("pose", &c.pose)}) {
     char part[120];
