@@ -2,12 +2,14 @@
 
 #include <lcm/lcm.h>
 
+#include <algorithm>
 #include <csignal>
 #include <deque>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "common/bus/channel_filter.h"
 #include "common/bus/lcm_url.h"
 
 namespace evit {
@@ -72,6 +74,8 @@ class LcmBus : public Bus {
   }
 
   void Subscribe(const std::string& channel, Handler handler) override {
+    const std::vector<int> before =
+        url_.multicast && socket_ < 0 ? SocketsOnPort(url_.port) : std::vector<int>();
     subscribers_.push_back({this, channel, std::move(handler), 0});
     lcm_subscription_t* subscription =
         lcm_subscribe(lcm_, EscapeRegex(channel).c_str(), &LcmBus::OnMessage, &subscribers_.back());
@@ -80,7 +84,11 @@ class LcmBus : public Bus {
       throw std::runtime_error("cannot receive from the LCM bus (channel " + channel +
                                "): is multicast routed, and not filtered by a firewall?");
     }
-    if (url_.multicast && subscribers_.size() == 1) HearOnlyOwnGroup(url_);  // LCM has its socket by now
+    if (url_.multicast && subscribers_.size() == 1) {  // LCM has its socket by now
+      HearOnlyOwnGroup(url_);
+      socket_ = NewSocket(before);
+    }
+    HearOnlySubscribed();
     lcm_subscription_set_queue_capacity(subscription, 0);  // unlimited: Enqueue() bounds and counts
   }
 
@@ -107,6 +115,21 @@ class LcmBus : public Bus {
   std::int64_t queue_drops() const override { return queue_drops_; }
 
  private:
+  /// The one on the URL's port that is not in `before`; -1 where there is no such, or several.
+  int NewSocket(const std::vector<int>& before) const {
+    std::vector<int> others;
+    for (const int fd : SocketsOnPort(url_.port)) {
+      if (std::find(before.begin(), before.end(), fd) == before.end()) others.push_back(fd);
+    }
+    return others.size() == 1 ? others.front() : -1;
+  }
+  void HearOnlySubscribed() const {
+    if (socket_ < 0) return;
+    std::vector<std::string> channels;
+    for (const Subscriber& subscriber : subscribers_) channels.push_back(subscriber.channel);
+    (void)HearOnlyChannels(socket_, channels);  // without it what is not subscribed is dropped later
+  }
+
   struct Subscriber {
     LcmBus* bus;
     std::string channel;
@@ -157,6 +180,7 @@ class LcmBus : public Bus {
 
   LcmUrl url_;
   lcm_t* lcm_ = nullptr;
+  int socket_ = -1;  // LCM's, which it receives by; -1: not known
   int granted_ = 0;
   std::int64_t send_errors_ = 0;
   std::int64_t queue_drops_ = 0;

@@ -11,9 +11,10 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <stdexcept>
 #include <system_error>
+
+#include "common/bus/channel_filter.h"
 
 namespace evit {
 
@@ -148,17 +149,7 @@ void RequireServer(const LcmUrl& url) {
 }
 
 void HearOnlyOwnGroup(const LcmUrl& url) {
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error)) {
-    const int fd = std::atoi(entry.path().filename().c_str());
-    sockaddr_in address{};
-    socklen_t size = sizeof address;
-    int type = 0;
-    socklen_t type_size = sizeof type;
-    if (::getsockopt(fd, SOL_SOCKET, SO_TYPE, &type, &type_size) != 0 || type != SOCK_DGRAM) continue;
-    if (::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) != 0 ||
-        address.sin_family != AF_INET || address.sin_port != htons(static_cast<std::uint16_t>(url.port)))
-      continue;
+  for (const int fd : SocketsOnPort(url.port)) {
     const int no = 0;
     (void)::setsockopt(fd, IPPROTO_IP, IP_MULTICAST_ALL, &no, sizeof no);  // Linux 2.6.31; else as before
   }
