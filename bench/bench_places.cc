@@ -80,7 +80,7 @@ BENCHMARK(Index)
 
 void Search(benchmark::State& state) {
   const auto side = static_cast<float>(state.range(0));
-  const auto map = std::make_unique<MapIndex>(Room(side, static_cast<std::size_t>(20'000 * side)));
+  const auto map = std::make_unique<MapIndex>(Room(side, static_cast<std::size_t>(8'000 * side)));
   const PlaceIndex places(map->map(), Options());
   const Rig rig = BenchRig();
   PlaceFinderOptions options;

@@ -19,7 +19,9 @@ constexpr double kEnough = 0.35;    // of a place's width, in pixels that are on
 constexpr double kNarrowest = 0.3;  // of a place on the horizon: narrower ones count as if they were so wide
 constexpr int kReach = 2;           // places: farther from an edge than that is nowhere near
 constexpr double kFade = 1.2;       // places: standard deviation of nearness
-constexpr double kScale = 30;       // gain of 1 as a whole number: a thousand of them fit into 16 bits
+constexpr double kDrawn =
+    30;  // places, as many as a row has in sight: weight of the whole picture's mean in its own
+constexpr double kScale = 30;  // gain of 1 as a whole number: a thousand of them fit into 16 bits
 
 using Pictures = std::vector<std::array<float, kColumns>>;  // kStackedRows
 
@@ -165,17 +167,24 @@ void Normalise(double width, Pictures* held) {
   }
 }
 
-// Mean of a picture over what is in sight.
-double MeanInSight(const Pictures& near, const Seen& seen, int direction) {
-  double sum = 0, n = 0;
+// Mean of each row of a direction's picture over what is in sight, drawn towards that of the whole picture
+// where it is little: edges and events crowd at the horizon of any large room, which says nothing about the
+// place.
+std::array<double, kRows> MeansInSight(const Pictures& near, const Seen& seen, int direction) {
+  std::array<double, kRows> sums{}, counts{};
+  double sum = 0, count = 0;
   for (int r = 0; r < kRows; ++r) {
     for (int c = 0; c < kColumns; ++c) {
       if (!seen.in_sight[r][c]) continue;
-      sum += near[direction * kRows + r][c];
-      n += 1;
+      sums[r] += near[direction * kRows + r][c];
+      counts[r] += 1;
     }
+    sum += sums[r];
+    count += counts[r];
   }
-  return n > 0 ? sum / n : 0;
+  const double mean = count > 0 ? sum / count : 0;
+  for (int r = 0; r < kRows; ++r) sums[r] = (sums[r] + kDrawn * mean) / (counts[r] + kDrawn);
+  return sums;
 }
 
 }  // namespace
@@ -190,11 +199,11 @@ EventPanorama::EventPanorama(const cv::Mat& surface, const Camera& camera,
   const Pictures near = Nearness(seen.held);
   double squares = 0, places = 0;
   for (int d = 0; d <= kDirections; ++d) {
-    const double mean = MeanInSight(near, seen, d);
+    const std::array<double, kRows> means = MeansInSight(near, seen, d);
     for (int r = 0; r < kRows; ++r) {
       for (int c = 0; c < kColumns; ++c) {
         if (!seen.in_sight[r][c]) continue;
-        const double gain = near[d * kRows + r][c] - mean;
+        const double gain = near[d * kRows + r][c] - means[r];
         squares += gain * gain;
         places += 1;
         occupied_ += d == kAnyDirection && seen.held[d * kRows + r][c] > 0.5F ? 1 : 0;

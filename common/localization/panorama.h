@@ -42,19 +42,19 @@ EVIT_ALWAYS_INLINE int PlaceOf(float x, float y, float z) {
 struct PictureLine {
   float east, north;
 };
-inline PictureLine LineAt(float x, float y, float z, float dx, float dy, float dz) {
+EVIT_ALWAYS_INLINE PictureLine LineAt(float x, float y, float z, float dx, float dy, float dz) {
   const float flat = std::sqrt(x * x + y * y) + 1e-9F, length = std::sqrt(flat * flat + z * z);
   return {(-y * dx + x * dy) / flat, (-z * (x * dx + y * dy) / flat + flat * dz) / length};
 }
 
 /// The direction's picture. They are centred on 0, 45, 90 and 135 degrees: most edges of a room are level or
 /// upright.
-inline int DirectionBin(const PictureLine& line) {
+EVIT_ALWAYS_INLINE int DirectionBin(const PictureLine& line) {
   constexpr float kTan = 0.41421356F;  // of 22.5 degrees
   const float east = std::abs(line.east), north = std::abs(line.north);
-  if (north < kTan * east) return 0;
-  if (east < kTan * north) return 2;
-  return (line.east > 0) == (line.north > 0) ? 1 : 3;
+  const int slanting = line.east * line.north > 0 ? 1 : 3;
+  const int steep = east < kTan * north ? 2 : slanting;
+  return north < kTan * east ? 0 : steep;
 }
 
 }  // namespace evit::panorama

@@ -1,6 +1,7 @@
 #include "common/localization/place_finder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "common/localization/in_parallel.h"
@@ -14,9 +15,10 @@ namespace {
 constexpr StartRange kFromMatch{0.15, 0.09, 5};  // half the grid's spacing and a yaw bin, and the tilt
 constexpr StartRange kAround{0.2, 0.1, 4};       // a repeated pattern may have been met one repeat away
 constexpr StartRange kPredicted{0.05, 0.03, 4};  // 50 ms on, by the IMU
-constexpr int kIterations = 8;                   // from a match: enough to tell which are worth more
-constexpr int kFewestPlaces = 25;                // of the panorama, with an edge: fewer fit anywhere
-constexpr std::size_t kSearched = 6;             // of the best matches, around which to search
+constexpr double kUsualPlaces = 15'000;
+constexpr int kIterations = 8;                          // from a match: enough to tell which are worth more
+constexpr int kFewestPlaces = 25;                       // of the panorama, with an edge: fewer fit anywhere
+constexpr std::size_t kSearched = 6;                    // of the best matches, around which to search
 constexpr double kSamePlace = 0.05, kSameAngle = 0.05;  // m, rad: nearer poses are one
 
 bool Same(const SE3& a, const SE3& b) {
@@ -37,6 +39,12 @@ void SortOut(std::vector<PlaceCandidate>* candidates, std::size_t count) {
     }
   }
   *candidates = std::move(kept);
+}
+
+// Of more places more look alike by chance, and the right one ranks lower.
+std::size_t MatchesOf(const PlaceIndex& index, std::size_t matches) {
+  const double growth = std::sqrt(static_cast<double>(index.places().size()) / kUsualPlaces);
+  return static_cast<std::size_t>(static_cast<double>(matches) * std::max(1.0, growth));
 }
 
 }  // namespace
@@ -100,7 +108,7 @@ std::vector<PlaceCandidate> PlaceFinder::Everywhere(const PlaceQuery& query,
     };
   }
   const std::vector<PlaceMatch> matches =
-      BestMatches(index_, panorama, options_.matches, allowed, options_.threads);
+      BestMatches(index_, panorama, MatchesOf(index_, options_.matches), allowed, options_.threads);
   std::vector<PlaceCandidate> aligned(matches.size());
   InParallel(options_.threads, matches.size(), [&](std::size_t k) {
     aligned[k] = Aligned(field, pose_of(matches[k].at, matches[k].yaw), kFromMatch);

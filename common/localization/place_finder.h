@@ -13,7 +13,7 @@
 namespace evit {
 
 struct PlaceFinderOptions {
-  std::size_t matches = 48;    // places whose image is compared, after their panoramas
+  std::size_t matches = 48;  // places whose image is compared, after their panoramas: of 15,000; more of more
   std::size_t candidates = 8;  // in the answer to a search everywhere, at most
   std::size_t points = 900;    // of the map, to compare an image by
   int threads = 2;

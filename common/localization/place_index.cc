@@ -18,16 +18,31 @@ constexpr std::size_t kBlock = 256;                   // places that a thread ta
 constexpr double kRoomHeight = 2, kBeyondRoom = 0.2;  // m
 constexpr float kBehind = 1.15F, kBehindM = 0.1F;     // farther by that much than what lies around it: hidden
 
-// Place in the panorama and distance (0: out of range) of each point.
-EVIT_MULTIVERSION void LookAt(const PointArrays& points, const float* at, float near2, float far2,
-                              std::int32_t* places, float* depths) {
-  const float *px = points.x(), *py = points.y(), *pz = points.z();
-  const std::size_t n = points.size();
+// Edges as loops over lanes take them: places, and directions (zero: none).
+struct EdgeArrays {
+  PointArrays at, along;
+};
+
+// Of each edge as seen from a place: where it lies in the panorama, its distance (0: out of range), and a bit
+// for the picture of its direction.
+struct Seen {
+  std::vector<std::int32_t> places, bits;
+  std::vector<float> depths;
+};
+
+EVIT_MULTIVERSION void LookAt(const EdgeArrays& edges, const float* at, float near2, float far2, Seen* seen) {
+  const float *px = edges.at.x(), *py = edges.at.y(), *pz = edges.at.z();
+  const float *dx = edges.along.x(), *dy = edges.along.y(), *dz = edges.along.z();
+  std::int32_t *places = seen->places.data(), *bits = seen->bits.data();
+  float* depths = seen->depths.data();
+  const std::size_t n = edges.at.size();
   for (std::size_t k = 0; k < n; ++k) {
     const float x = px[k] - at[0], y = py[k] - at[1], z = pz[k] - at[2];
     const float r2 = x * x + y * y + z * z;
     places[k] = PlaceOf(x, y, z);
     depths[k] = r2 < near2 || r2 > far2 ? 0 : std::sqrt(r2);
+    const int bit = 1 << DirectionBin(LineAt(x, y, z, dx[k], dy[k], dz[k]));
+    bits[k] = dx[k] * dx[k] + dy[k] * dy[k] + dz[k] * dz[k] > 0 ? bit : 1 << kAnyDirection;
   }
 }
 
@@ -35,14 +50,18 @@ EVIT_MULTIVERSION void LookAt(const PointArrays& points, const float* at, float 
 class View {
  public:
   View(const std::vector<EdgePoint>& edges, const PlaceIndexOptions& options)
-      : edges_(edges),
-        near2_(static_cast<float>(options.min_depth * options.min_depth)),
+      : near2_(static_cast<float>(options.min_depth * options.min_depth)),
         far2_(static_cast<float>(options.max_depth * options.max_depth)),
-        most_(options.max_visible),
-        places_(edges.size()),
-        depths_(edges.size()) {
-    points_.Resize(edges.size());
-    for (std::size_t k = 0; k < edges.size(); ++k) points_.Set(k, edges[k].at);
+        most_(options.max_visible) {
+    edges_.at.Resize(edges.size());
+    edges_.along.Resize(edges.size());
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      edges_.at.Set(k, edges[k].at);
+      edges_.along.Set(k, edges[k].along);
+    }
+    seen_.places.resize(edges.size());
+    seen_.bits.resize(edges.size());
+    seen_.depths.resize(edges.size());
   }
 
   // The edges visible from `at`, each place and direction once, to `visible`.
@@ -50,23 +69,20 @@ class View {
     FillDepths(at);
     FindHorizon();
     std::array<std::uint8_t, kRows * kColumns> held{};
-    visible->clear();
-    for (std::size_t k = 0; k < edges_.size(); ++k) {
-      if (depths_[k] <= 0 || depths_[k] > kBehind * horizon_[places_[k]] + kBehindM) continue;
-      const Eigen::Vector3f d = edges_[k].at - at;
-      const Eigen::Vector3f& along = edges_[k].along;
-      const int direction = along.isZero()
-                                ? kAnyDirection
-                                : DirectionBin(LineAt(d.x(), d.y(), d.z(), along.x(), along.y(), along.z()));
-      const auto bit = static_cast<std::uint8_t>(1U << direction);
-      if ((held[places_[k]] & bit) != 0) continue;
-      held[places_[k]] |= bit;
-      visible->push_back({static_cast<std::uint16_t>(direction * kRows + places_[k] / kColumns),
-                          static_cast<std::uint16_t>(places_[k] % kColumns)});
+    for (std::size_t k = 0; k < edges_.at.size(); ++k) {
+      const std::int32_t place = seen_.places[k];
+      const bool visible_there =
+          seen_.depths[k] > 0 && seen_.depths[k] <= kBehind * horizon_[place] + kBehindM;
+      held[place] |= static_cast<std::uint8_t>(visible_there ? seen_.bits[k] : 0);
     }
-    std::sort(visible->begin(), visible->end(), [](const auto& a, const auto& b) {
-      return a.stacked_row != b.stacked_row ? a.stacked_row < b.stacked_row : a.column < b.column;
-    });
+    visible->clear();
+    for (int row = 0; row < kStackedRows; ++row) {
+      const auto bit = static_cast<std::uint8_t>(1 << row / kRows);
+      for (int column = 0; column < kColumns; ++column) {
+        if ((held[row % kRows * kColumns + column] & bit) != 0)
+          visible->push_back({static_cast<std::uint16_t>(row), static_cast<std::uint16_t>(column)});
+      }
+    }
     const std::size_t all = visible->size();
     if (all <= most_) return;
     for (std::size_t k = 0; k < most_; ++k) (*visible)[k] = (*visible)[k * all / most_];
@@ -75,10 +91,11 @@ class View {
 
  private:
   void FillDepths(const Eigen::Vector3f& at) {
-    LookAt(points_, at.data(), near2_, far2_, places_.data(), depths_.data());
+    LookAt(edges_, at.data(), near2_, far2_, &seen_);
     nearest_.fill(std::numeric_limits<float>::infinity());
-    for (std::size_t k = 0; k < edges_.size(); ++k) {
-      if (depths_[k] > 0) nearest_[places_[k]] = std::min(nearest_[places_[k]], depths_[k]);
+    for (std::size_t k = 0; k < edges_.at.size(); ++k) {
+      float& nearest = nearest_[seen_.places[k]];
+      if (seen_.depths[k] > 0) nearest = std::min(nearest, seen_.depths[k]);
     }
   }
 
@@ -87,6 +104,7 @@ class View {
   void FindHorizon() {
     for (int row = 0; row < kRows; ++row) {
       for (int column = 0; column < kColumns; ++column) {
+        if (std::isinf(nearest_[row * kColumns + column])) continue;  // nobody asks
         std::array<float, 4> sides;
         sides.fill(std::numeric_limits<float>::infinity());
         for (int dr = -2; dr <= 2; ++dr) {
@@ -105,12 +123,10 @@ class View {
     }
   }
 
-  const std::vector<EdgePoint>& edges_;
+  EdgeArrays edges_;
   float near2_, far2_;
   std::size_t most_;
-  PointArrays points_;
-  std::vector<std::int32_t> places_;  // of each edge
-  std::vector<float> depths_;         // m; 0: out of range
+  Seen seen_;
   std::array<float, kRows * kColumns> nearest_, horizon_;
 };
 
