@@ -16,11 +16,10 @@ ImuTerm SlidingWindow::Term(const WindowNode& node) const {
   return ImuTerm(node.imu.get(), gravity_, options_.imu_noise_factor);
 }
 
-AlignmentTerm SlidingWindow::Align(const WindowNode& node) const {
-  AlignmentTerm term =
-      EvaluateAlignment(alignment_, *node.field, 0, node.points, node.state.T_map_body, true);
+AlignmentTerm SlidingWindow::Align(WindowNode* node) const {
+  AlignmentTerm term = AlignNear(node->state.T_map_body, node);
   // The Hessian of a solver's step claims more than there is to know: it would make the prior sure of noise.
-  term.hessian = AlignmentInformation(alignment_, *node.field, node.points, node.state.T_map_body);
+  term.hessian = AlignmentInformation(alignment_, *node->field, node->points, node->state.T_map_body);
   return term;
 }
 
@@ -32,7 +31,7 @@ StatePrior SlidingWindow::Eliminate(const StatePrior& prior, const AlignmentTerm
 void SlidingWindow::Push(WindowNode node) {
   if (nodes_.size() >= static_cast<std::size_t>(options_.size)) {
     if (options_.first_node == WindowOptions::FirstNode::kPrior)
-      prior_ = Eliminate(prior_, Align(nodes_.front()), 0);
+      prior_ = Eliminate(prior_, Align(&nodes_.front()), 0);
     nodes_.pop_front();
   }
   nodes_.push_back(std::move(node));
@@ -41,7 +40,7 @@ void SlidingWindow::Push(WindowNode node) {
 // Most of the nodes hardly move from one solve to the next, and hardly any in its last iterations. Where a
 // pose changes the points' residuals by so little the quadratic function around the last one says the same.
 AlignmentTerm SlidingWindow::AlignNear(const SE3& T_map_body, WindowNode* node) const {
-  constexpr double kSame = 3e-3;  // of a residual's standard deviation, root mean square over the points
+  constexpr double kSame = 0.01;  // of a residual's standard deviation, root mean square over the points
   LocalAlignment& local = node->local;
   if (local.known) {
     Vector6d d;
@@ -109,7 +108,7 @@ SlidingWindow::Summary SlidingWindow::Solve() {
   }
   // Once per keyframe is enough: later moves of a node are far smaller than what would change its curvature.
   for (WindowNode& node : nodes_) {
-    if (node.alignment.cost == 0) node.alignment = Align(node);
+    if (node.alignment.cost == 0) node.alignment = Align(&node);
   }
   return result;
 }
