@@ -14,7 +14,7 @@ namespace {
 
 constexpr Utime kPatience = 3'000'000;  // us: keyframes kept while an answer is awaited
 constexpr std::size_t kBacklog = 6;     // keyframes waiting, from which every other is left out
-constexpr Utime kRetry = 200'000;       // us between searches everywhere that found nothing worth following
+constexpr Utime kRetry = 100'000;       // us between searches everywhere that found nothing worth following
 constexpr double kUnsureUp = 0.05;      // rad: from which the next search tries another vertical
 constexpr double kKnownScale = 0.1;     // sigma of the map's size, where it is in doubt
 constexpr double kPriorSlack = 0.2;  // m, rad: a place a little outside of what is known may still be right

@@ -130,6 +130,7 @@ LocatorResult RunLocator(const RecordedStreams& streams, const PreparedMap& map,
       if (tracking) end = std::min(streams.end(), result.t + static_cast<Utime>(hold_s * 1e6));
     }
   }
+  result.cut = !result.found && streams.end() < begin + static_cast<Utime>(seconds * 1e6);
   if (played > 0) result.events_per_s = static_cast<double>(n_events) / ToSeconds(played);
   result.cpu_s = static_cast<double>(std::clock() - started) / CLOCKS_PER_SEC;
   return result;

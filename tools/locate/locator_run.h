@@ -29,6 +29,7 @@ struct LocatorResult {
   double after_s = 0;  // sensor time from the start to that, or to the end of the part
   Utime t = 0;         // us: of the pose
   SE3 T_map_body;
+  bool cut = false;                        // not found, and the recording ended before the time was over
   double held_s = 0;                       // that it went on tracking, of those asked for
   std::string withdrawn;                   // why it stopped doing so; empty: it did not
   std::string progress;                    // what the tracker said last

@@ -17,6 +17,7 @@ void StartTally::Add(const LocatorResult& result, bool right) {
   within_ += right && result.after_s <= kSoon ? 1 : 0;
   wrong_ += result.found && !right ? 1 : 0;
   withdrawn_ += result.withdrawn.empty() ? 0 : 1;
+  cut_ += result.cut ? 1 : 0;
   if (result.found) after_.push_back(result.after_s);
   candidates_ += static_cast<double>(result.candidates.size());
   rate_ += result.events_per_s;
@@ -30,11 +31,12 @@ std::string StartTally::Line() const {
   if (!after.empty()) std::nth_element(after.begin(), middle, after.end());
   const double n = std::max(1, starts_);
   return FormatText(
-      "starts %d right %d within_2s %d wrong %d withdrawn %d after_s %.2f candidates %.1f events_per_s %.0f "
+      "starts %d right %d within_2s %d wrong %d withdrawn %d cut %d after_s %.2f candidates %.1f "
+      "events_per_s %.0f "
       "search_s %.2f "
       "cpu_s %.2f",
-      starts_, right_, within_, wrong_, withdrawn_, after.empty() ? 0 : *middle, candidates_ / n, rate_ / n,
-      search_ / n, cpu_ / n);
+      starts_, right_, within_, wrong_, withdrawn_, cut_, after.empty() ? 0 : *middle, candidates_ / n,
+      rate_ / n, search_ / n, cpu_ / n);
 }
 
 }  // namespace evit::locate

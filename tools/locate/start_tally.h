@@ -14,13 +14,13 @@ class StartTally {
   void Add(const LocatorResult& result, bool right);
 
   int wrong() const { return wrong_; }
-  /// "starts N right N within_2s N wrong N withdrawn N after_s X candidates X events_per_s X search_s X cpu_s
-  /// X": of those found the median sensor time; of all the means of the candidates of the first search, of
-  /// the events' rate, of one search and of the CPU time. For scripts.
+  /// "starts N right N within_2s N wrong N withdrawn N cut N after_s X candidates X events_per_s X search_s X
+  /// cpu_s X": of those found the median sensor time; of all the means of the candidates of the first search,
+  /// of the events' rate, of one search and of the CPU time. For scripts.
   std::string Line() const;
 
  private:
-  int starts_ = 0, right_ = 0, within_ = 0, wrong_ = 0, withdrawn_ = 0;
+  int starts_ = 0, right_ = 0, within_ = 0, wrong_ = 0, withdrawn_ = 0, cut_ = 0;
   double candidates_ = 0, rate_ = 0, search_ = 0, cpu_ = 0;  // sums
   std::vector<double> after_;                                // s, of those found
 };

@@ -20,22 +20,25 @@ TEST(StartTallyTest, CountsWhatIsRightSoonWrongAndWithdrawn) {
   StartTally tally;
   tally.Add(Result(true, 1.5), true);
   tally.Add(Result(true, 2.5), true);
-  tally.Add(Result(false, 5), false);
+  LocatorResult cut = Result(false, 2);
+  cut.cut = true;
+  tally.Add(cut, false);
   LocatorResult withdrawn = Result(true, 1.75);
   withdrawn.withdrawn = "lost";
   tally.Add(withdrawn, false);
   EXPECT_EQ(tally.wrong(), 1);
   EXPECT_EQ(tally.Line(),
-            "starts 4 right 2 within_2s 1 wrong 1 withdrawn 1 after_s 1.75 candidates 3.0 events_per_s "
+            "starts 4 right 2 within_2s 1 wrong 1 withdrawn 1 cut 1 after_s 1.75 candidates 3.0 events_per_s "
             "200000 search_s 0.25 "
             "cpu_s 1.50");
 }
 
 TEST(StartTallyTest, NoStartIsNoDivisionByZero) {
-  EXPECT_EQ(StartTally().Line(),
-            "starts 0 right 0 within_2s 0 wrong 0 withdrawn 0 after_s 0.00 candidates 0.0 events_per_s 0 "
-            "search_s 0.00 "
-            "cpu_s 0.00");
+  EXPECT_EQ(
+      StartTally().Line(),
+      "starts 0 right 0 within_2s 0 wrong 0 withdrawn 0 cut 0 after_s 0.00 candidates 0.0 events_per_s 0 "
+      "search_s 0.00 "
+      "cpu_s 0.00");
 }
 
 }  // namespace
