@@ -104,6 +104,18 @@ std::string TransformText(const char* name, const SE3& T) {
   return out + "}\n";
 }
 
+std::string MarkerText(const SE3& T_marker_body) {
+  return "# Body to the frame that the ground truth tells of, row-major 4x4.\n" +
+         TransformText("T_marker_body", T_marker_body);
+}
+
+std::string CommentText(const std::string& comment) {
+  std::string text;
+  std::istringstream lines(comment);
+  for (std::string line; std::getline(lines, line);) text += "# " + line + "\n";
+  return text;
+}
+
 std::string CameraText(const Camera& c, Utime time_offset) {
   const bool plumb_bob = c.model == Camera::Model::kPlumbBob;
   std::string distortion;
@@ -150,7 +162,9 @@ Rig LoadRig(const std::string& path) {
   return rig;
 }
 
-Camera LoadCamera(const std::string& path) {
+Camera LoadCamera(const std::string& path) { return LoadMountedCamera(path).camera; }
+
+MountedCamera LoadMountedCamera(const std::string& path) {
   const RigText text(path, true);
   text.Require(text.message.has_camera(), "camera",
                "this block is missing; see the commented files in config/");
@@ -158,7 +172,24 @@ Camera LoadCamera(const std::string& path) {
   text.message.camera().FindInitializationErrors(&missing);
   for (const std::string& field : missing)
     text.Require(field == "time_offset_us", "camera." + field, "this key is missing");
-  return ToCamera(text);
+  const config::Rig& message = text.message;
+  MountedCamera mounted;
+  mounted.camera = ToCamera(text);
+  mounted.time_offset = std::llround(message.camera().time_offset_us());
+  mounted.mounted = message.has_t_body_camera();
+  if (mounted.mounted) mounted.T_body_camera = ToSE3(text, message.t_body_camera(), "T_body_camera");
+  if (message.has_t_marker_body())
+    mounted.T_marker_body = ToSE3(text, message.t_marker_body(), "T_marker_body");
+  return mounted;
+}
+
+void WriteMountedCamera(const std::string& path, const MountedCamera& camera, const std::string& comment) {
+  WholeFile file(path);
+  file.stream() << CommentText(comment) << CameraText(camera.camera, camera.time_offset)
+                << "\n# Camera to body (= IMU), row-major 4x4.\n"
+                << TransformText("T_body_camera", camera.T_body_camera) << '\n'
+                << MarkerText(camera.T_marker_body);
+  file.Commit();
 }
 
 std::string LoadRigName(const std::string& path) {
@@ -167,14 +198,11 @@ std::string LoadRigName(const std::string& path) {
 
 void WriteRig(const std::string& path, const Rig& rig, const std::string& name, const std::string& comment) {
   std::ostringstream text;
-  std::istringstream lines(comment);
-  for (std::string line; std::getline(lines, line);) text << "# " << line << '\n';
-  text << "name: " << Quoted(name) << "\n\n"
+  text << CommentText(comment) << "name: " << Quoted(name) << "\n\n"
        << CameraText(rig.camera, rig.camera_time_offset) << '\n'
        << ImuText(rig.imu_rate_hz, rig.imu_noise) << "\n# Event camera to body (= IMU), row-major 4x4.\n"
-       << TransformText("T_body_camera", rig.T_body_camera)
-       << "\n# Body to the frame that the ground truth tells of, row-major 4x4.\n"
-       << TransformText("T_marker_body", rig.T_marker_body) << "\ngravity: " << NumberText(rig.gravity)
+       << TransformText("T_body_camera", rig.T_body_camera) << '\n'
+       << MarkerText(rig.T_marker_body) << "\ngravity: " << NumberText(rig.gravity)
        << "  # m/s^2, along -z of the map frame\n";
   WholeFile file(path);
   file.stream() << text.str();

@@ -15,6 +15,14 @@ Rig LoadRig(const std::string& path);
 /// which is about an IMU, may be missing). Throws ConfigError as LoadRig does.
 Camera LoadCamera(const std::string& path);
 
+/// The same with where it sits and how its clock goes, as far as the file has them (blocks T_body_camera and
+/// T_marker_body, as in a rig file).
+MountedCamera LoadMountedCamera(const std::string& path);
+
+/// Writes a file that LoadMountedCamera reads back exactly. `comment`: one or more lines without '#'. Throws
+/// std::runtime_error naming the file.
+void WriteMountedCamera(const std::string& path, const MountedCamera& camera, const std::string& comment);
+
 /// A rig file's name for people. Throws ConfigError as LoadRig does.
 std::string LoadRigName(const std::string& path);
 

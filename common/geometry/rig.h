@@ -29,4 +29,12 @@ struct Rig {
   Utime camera_time_offset = 0;  // us to add to event stamps to get IMU time
 };
 
+/// A further camera of a rig, such as a regular one beside the event camera.
+struct MountedCamera {
+  Camera camera;
+  SE3 T_body_camera, T_marker_body;  // as in Rig; identity where not known
+  bool mounted = false;              // T_body_camera is known
+  Utime time_offset = 0;             // us to add to its stamps to get IMU time
+};
+
 }  // namespace evit

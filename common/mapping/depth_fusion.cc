@@ -19,6 +19,7 @@ EdgeImage MeasuredEdges(const PosedEdges& view, const std::vector<EdgeDepth>& de
 struct KeyView {
   PinholeView pinhole;
   EdgeImage measured;
+  CameraSweep sweep;
 };
 
 // Adds what one key view says of a point at p of the map with normal direction `along` to the fused inverse
@@ -35,12 +36,12 @@ Witness Ask(const KeyView& key, const std::vector<EdgeDepth>& depths, const Mapp
   if (p.z() < 0.05) return witness;
   const Eigen::Vector2d pixel = key.pinhole.Pixel(p);
   if (!key.pinhole.camera.Contains(pixel, 5)) return witness;
-  witness.seen = true;
   const Eigen::Vector2d tangent = key.pinhole.Jacobian(p) * (key.pinhole.R * point.direction);
-  if (tangent.norm() < 1e-9) return witness;
   EdgeImage::Query query;
   query.pixel = pixel.cast<float>();
   query.normal = Eigen::Vector2d(-tangent.y(), tangent.x()).normalized().cast<float>();
+  witness.seen = key.sweep.Shows(key.pinhole.camera, p, query.normal);
+  if (!witness.seen || tangent.norm() < 1e-9) return witness;
   query.radius = static_cast<float>(options.max_off_px);
   const EdgePixel* match = key.measured.Match(query);
   if (match == nullptr) return witness;
@@ -123,7 +124,8 @@ std::vector<MappedPoint> FuseDepths(const std::vector<PosedEdges>& views, const 
   prepared.reserve(keys.size());
   for (const KeyDepths& key : keys) {
     const PosedEdges& view = views[key.view];
-    prepared.push_back({PinholeView(view.T_map_camera, view.camera), MeasuredEdges(view, key.depths)});
+    prepared.push_back(
+        {PinholeView(view.T_map_camera, view.camera), MeasuredEdges(view, key.depths), view.sweep});
   }
   std::vector<std::vector<MappedPoint>> parts(keys.size());
   ParallelFor(static_cast<int>(keys.size()), threads, [&](int k) {

@@ -22,13 +22,14 @@ constexpr double kAlike = 5;  // points on one edge err together: so many of the
 struct Sighting {
   bool found = false;
   double off = 0;  // pixels
+  int way = 0;     // that its edge goes, see CameraSweep
   Eigen::RowVector3d by_point = Eigen::RowVector3d::Zero();
 
   double Weight() const { return 1 / (1 + off * off / (kKernelPx * kKernelPx)); }
 };
 
 // False where the point is not to be expected in the picture, or points at the camera.
-bool Look(const PinholeView& pinhole, const EdgeImage& edges, const MappedPoint& point,
+bool Look(const PinholeView& pinhole, const PosedEdges& view, const MappedPoint& point,
           const Eigen::Vector3d& p, double radius, Sighting* sighting) {
   const Eigen::Matrix<double, 2, 3> jacobian = pinhole.Jacobian(p);
   const Eigen::Vector2d tangent = jacobian * (pinhole.R * point.direction);
@@ -39,11 +40,13 @@ bool Look(const PinholeView& pinhole, const EdgeImage& edges, const MappedPoint&
   query.pixel = pixel.cast<float>();
   query.normal = (Eigen::Vector2d(-tangent.y(), tangent.x()) / length).cast<float>();
   query.radius = static_cast<float>(radius);
+  if (!view.sweep.Shows(pinhole.camera, p, query.normal)) return false;
   sighting->found = false;
-  if (const EdgePixel* match = edges.Match(query)) {
+  if (const EdgePixel* match = view.edges.Match(query)) {
     const Eigen::RowVector2d normal = match->normal.cast<double>().transpose();
     sighting->found = true;
-    sighting->off = normal * (pixel - match->pixel.cast<double>());
+    sighting->way = view.sweep.Way(pinhole.camera, p, query.normal);
+    sighting->off = normal * (pixel - match->pixel.cast<double>()) - point.lag * sighting->way;
     sighting->by_point = normal * jacobian;
   }
   return true;
@@ -62,8 +65,22 @@ double Median(std::vector<double> values) {
 struct EdgeAdjustment::Sums {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // 1/m^2
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Eigen::Vector3d by_lag = Eigen::Vector3d::Zero();  // the same, crossed with the lag; and of the lag
+  double lag_information = 0, lag_gradient = 0;
   int expected = 0, seen = 0;
+
+  void Add(const Sums& other);
 };
+
+void EdgeAdjustment::Sums::Add(const Sums& other) {
+  information += other.information;
+  gradient += other.gradient;
+  by_lag += other.by_lag;
+  lag_information += other.lag_information;
+  lag_gradient += other.lag_gradient;
+  expected += other.expected;
+  seen += other.seen;
+}
 
 std::vector<std::int32_t> EdgeAdjustment::Visible(const PosedEdges& view,
                                                   const std::vector<MappedPoint>& points) const {
@@ -88,8 +105,7 @@ void EdgeAdjustment::Collect(const PosedEdges& view, const std::vector<MappedPoi
   const PinholeView pinhole(view.T_map_camera, view.camera);
   for (const std::int32_t id : Visible(view, points)) {
     Sighting sighting;
-    if (!Look(pinhole, view.edges, points[id], pinhole.InCamera(points[id].position), radius, &sighting))
-      continue;
+    if (!Look(pinhole, view, points[id], pinhole.InCamera(points[id].position), radius, &sighting)) continue;
     Sums& s = (*sums)[id];
     ++s.expected;
     if (!sighting.found) continue;
@@ -97,6 +113,9 @@ void EdgeAdjustment::Collect(const PosedEdges& view, const std::vector<MappedPoi
     const Eigen::RowVector3d j = sighting.by_point * pinhole.R;
     s.information += w * j.transpose() * j;
     s.gradient += w * sighting.off * j.transpose();
+    s.by_lag -= w * sighting.way * j.transpose();
+    s.lag_information += w * sighting.way * sighting.way;
+    s.lag_gradient -= w * sighting.off * sighting.way;
     if (std::abs(sighting.off) < kInlierPx) ++s.seen, *squares += sighting.off * sighting.off, ++*n;
   }
 }
@@ -116,7 +135,7 @@ void EdgeAdjustment::MovePose(const std::vector<MappedPoint>& points, double rad
     for (const std::int32_t id : visible) {
       const Eigen::Vector3d p = pinhole.InCamera(points[id].position);
       Sighting sighting;
-      if (p.z() < 0.05 || !Look(pinhole, view->edges, points[id], p, radius, &sighting) || !sighting.found)
+      if (p.z() < 0.05 || !Look(pinhole, *view, points[id], p, radius, &sighting) || !sighting.found)
         continue;
       Eigen::Matrix<double, 1, 6> j;
       j << -sighting.by_point * pinhole.R, sighting.by_point * Hat(p);
@@ -169,17 +188,17 @@ AdjustmentSummary EdgeAdjustment::Run(std::vector<MappedPoint>* points) {
     for (std::size_t k = 0; k < points->size(); ++k) {
       MappedPoint point = (*points)[k];
       Sums total;
-      for (const auto& part : sums) {
-        total.information += part[k].information;
-        total.gradient += part[k].gradient;
-        total.expected += part[k].expected;
-        total.seen += part[k].seen;
-      }
+      for (const auto& part : sums) total.Add(part[k]);
       point.views = total.seen;
       point.seen = total.expected > 0 ? static_cast<double>(total.seen) / total.expected : 0;
       // The first rounds are lenient: points and poses are still on their way.
       const double strict = last ? 1 : 0.6;
       if (total.seen < strict * options_.min_views || point.seen < strict * options_.min_share) continue;
+      // Of the lag nothing but its prior is known where there are no event views, and nothing changes.
+      total.lag_information += 1 / (options_.lag_sigma_px * options_.lag_sigma_px);
+      total.lag_gradient += point.lag / (options_.lag_sigma_px * options_.lag_sigma_px);
+      total.information -= total.by_lag * total.by_lag.transpose() / total.lag_information;
+      total.gradient -= total.by_lag * total.lag_gradient / total.lag_information;
       if (options_.hold_sigmas > 0) {
         const double sigma = options_.hold_sigmas * measured[k].sigma;
         const double per_m2 = 1 / (sigma * sigma + 1e-8);
@@ -201,6 +220,7 @@ AdjustmentSummary EdgeAdjustment::Run(std::vector<MappedPoint>* points) {
         const double limit = 0.03;  // m
         if (step.norm() > limit) step *= limit / step.norm();
         point.position += step;
+        point.lag -= (total.lag_gradient + total.by_lag.dot(step)) / total.lag_information;
       }
       kept.push_back(point);
       kept_measured.push_back(measured[k]);

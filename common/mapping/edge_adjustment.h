@@ -14,6 +14,7 @@ struct EdgeAdjustmentOptions {
   // How well the poses are known that were given.
   double pose_sigma_m = 0.003, pose_sigma_deg = 0.15;
   double edge_sigma_px = 0.35;
+  double lag_sigma_px = 0.4;                           // of a point's lag in event views
   double first_radius_px = 2.5, last_radius_px = 1.5;  // within which a point's edge is looked for
   double min_share = 0.4;                              // of the views that should show a point
   int min_views = 5;                                   // that show it

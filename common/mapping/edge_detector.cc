@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "common/mapping/edge_lines.h"
+
 namespace evit {
 namespace {
 
@@ -46,7 +48,10 @@ class Detector {
         if (Peak(column, row)) index.at<int>(row, column) = static_cast<int>(found_.size()) - 1;
       }
     }
-    return Follow(index);
+    std::vector<char> sure;
+    sure.reserve(found_.size());
+    for (const EdgePixel& e : found_) sure.push_back(e.contrast >= options_.sure_contrast ? 1 : 0);
+    return KeepLines(index, found_, sure, options_.min_length);
   }
 
  private:
@@ -68,39 +73,6 @@ class Detector {
     e.contrast = size * width_ / light_.at<float>(row, column);
     found_.push_back(e);
     return true;
-  }
-
-  // Those that hang together with a sure one, in lines that are long enough.
-  std::vector<EdgePixel> Follow(const cv::Mat& index) const {
-    std::vector<char> seen(found_.size(), 0), kept(found_.size(), 0);
-    const auto sure = static_cast<float>(options_.sure_contrast);
-    std::vector<cv::Point> line;
-    for (int row = kBorder; row < index.rows - kBorder; ++row) {
-      for (int column = kBorder; column < index.cols - kBorder; ++column) {
-        const int start = index.at<int>(row, column);
-        if (start < 0 || seen[start] != 0 || found_[start].contrast < sure) continue;
-        line.assign(1, {column, row});
-        seen[start] = 1;
-        for (std::size_t k = 0; k < line.size(); ++k) {
-          for (int dy = -1; dy <= 1; ++dy) {
-            for (int dx = -1; dx <= 1; ++dx) {
-              const cv::Point next = line[k] + cv::Point(dx, dy);
-              const int at = index.at<int>(next);
-              if (at < 0 || seen[at] != 0) continue;
-              seen[at] = 1;
-              line.push_back(next);
-            }
-          }
-        }
-        if (line.size() < static_cast<std::size_t>(options_.min_length)) continue;
-        for (const cv::Point& p : line) kept[index.at<int>(p)] = 1;
-      }
-    }
-    std::vector<EdgePixel> edges;
-    for (std::size_t k = 0; k < found_.size(); ++k) {
-      if (kept[k] != 0) edges.push_back(found_[k]);
-    }
-    return edges;
   }
 
   EdgeDetectorOptions options_;

@@ -24,10 +24,13 @@ struct EdgeStereo::Neighbour {
   Eigen::Vector3d far = Eigen::Vector3d::Zero();
   Eigen::Vector2f normal = Eigen::Vector2f::Zero();
   int bin = 0;
+  bool shows = true;  // this edge, when it is as far away as most
+  double late = 0;    // derivative of its distance by the lag: the same in views with the same way is none
 };
 
 struct EdgeStereo::Fit {
   double inverse_depth = 0, sigma = 0, support = 0, views = 0, share = 0;
+  double lag = 0, lag_sigma = 0;
 };
 
 std::vector<EdgeStereo::Neighbour> EdgeStereo::Prepare(int key, const std::vector<int>& neighbours) const {
@@ -45,11 +48,14 @@ EdgeStereo::Fit EdgeStereo::Refine(const EdgePixel& edge, const std::vector<Neig
   fit.inverse_depth = inverse_depth;
   const double low = 1 / options_.max_depth_m, high = 1 / options_.min_depth_m;
   for (int round = 0; round < 5; ++round) {
-    // Unknowns: the inverse depth, and by how much the key view's own edge is misplaced across (in units of
-    // sigma).
+    // Unknowns: the inverse depth; by how much the key view's own edge is misplaced across (in units of
+    // sigma); and by how many pixels events come late.
+    const double per_lag2 = 1 / (options_.lag_sigma_px * options_.lag_sigma_px);
     double a = 0, b = 0, c = 1, ga = 0, gb = 0, visible = 0;
+    double al = 0, bl = 0, l = per_lag2, gl = 0;
     fit.support = fit.views = 0;
     for (const Neighbour& n : neighbours) {
+      if (!n.shows) continue;
       const Eigen::Vector3d p = n.far + fit.inverse_depth * n.t;
       if (p.z() < 0.05) continue;
       const Camera& camera = n.view->camera;
@@ -77,20 +83,29 @@ EdgeStereo::Fit EdgeStereo::Refine(const EdgePixel& edge, const std::vector<Neig
       const double w = 1 / (1 + scaled * scaled);
       a += w * j * j, b += w * j, c += w;
       ga += w * j * r, gb += w * r;
+      const double late = n.late / options_.edge_sigma_px;
+      al += w * j * late, bl += w * late, l += w * late * late, gl += w * r * late;
       if (std::abs(r) * options_.edge_sigma_px < kInlierPx) ++fit.views, fit.support += w;
     }
     fit.share = visible > 0 ? fit.views / visible : 0;
+    // The lag first: without event views it is its prior's, and nothing changes.
+    a -= al * al / l, b -= al * bl / l, c -= bl * bl / l;
+    ga -= al * gl / l, gb -= bl * gl / l;
     const double information = a - b * b / c;
     if (fit.views < options_.min_views || information <= 0) return {};
     fit.sigma = 1 / std::sqrt(information);
     const double move = -(ga - b * gb / c) / information;
+    const double own = -(gb + b * move) / c;
+    fit.lag = (gl + al * move + bl * own) / l;  // what is left of the distances is what the lag makes of them
+    fit.lag_sigma = l > 1.5 * per_lag2 ? 1 / std::sqrt(l) : 0;
     fit.inverse_depth = std::clamp(fit.inverse_depth + std::clamp(move, -2 * step, 2 * step), low, high);
     if (round > 0 && std::abs(move) < 0.02 * step) break;
   }
   return fit;
 }
 
-std::vector<EdgeDepth> EdgeStereo::Measure(int key, const std::vector<int>& chosen, int stride) const {
+std::vector<EdgeDepth> EdgeStereo::Measure(int key, const std::vector<int>& chosen, int stride,
+                                           double typical_depth) const {
   const PosedEdges& own = views_[key];
   std::vector<Neighbour> neighbours = Prepare(key, chosen);
   std::vector<EdgeDepth> depths;
@@ -110,6 +125,7 @@ std::vector<EdgeDepth> EdgeStereo::Measure(int key, const std::vector<int>& chos
     const Camera& c = own.camera;
     const Eigen::Vector3d ray((edge.pixel.x() - c.cx) / c.fx, (edge.pixel.y() - c.cy) / c.fy, 1);
     const Eigen::Vector3d tangent(edge.normal.y() / c.fx, -edge.normal.x() / c.fy, 0);
+    const int own_way = own.sweep.Way(c, ray * typical_depth, edge.normal);
     std::fill(votes.begin(), votes.end(), 0);
     std::fill(seen.begin(), seen.end(), 0);
     for (Neighbour& n : neighbours) {
@@ -117,11 +133,16 @@ std::vector<EdgeDepth> EdgeStereo::Measure(int key, const std::vector<int>& chos
       // The tangent turned as the cameras are to each other; the normal is on its left.
       const Eigen::Vector3d along = n.R * tangent;
       const Camera& camera = n.view->camera;
-      if (n.far.z() < 0.1) continue;
+      n.shows = n.far.z() >= 0.1;
+      if (!n.shows) continue;
       const Eigen::Vector2d image(camera.fx * (along.x() - n.far.x() / n.far.z() * along.z()),
                                   camera.fy * (along.y() - n.far.y() / n.far.z() * along.z()));
       n.normal = Eigen::Vector2f(static_cast<float>(-image.y()), static_cast<float>(image.x())).normalized();
       n.bin = EdgeImage::BinOf(n.normal);
+      const Eigen::Vector3d there = n.far * typical_depth + n.t;
+      n.shows = n.view->sweep.Shows(camera, there, n.normal);
+      if (!n.shows) continue;
+      n.late = n.view->sweep.Way(camera, there, n.normal) - own_way;
       const EdgeImage& image_edges = n.view->edges;
       const auto width = static_cast<float>(image_edges.width() - 5);
       const auto height = static_cast<float>(image_edges.height() - 5);
@@ -176,7 +197,7 @@ std::vector<EdgeDepth> EdgeStereo::Measure(int key, const std::vector<int>& chos
     if (rival.support * rival.share > options_.max_rival_share * best.support * best.share) continue;
     if (best.sigma > options_.max_relative_sigma * best.inverse_depth) continue;
     if (best.inverse_depth < low + step || best.inverse_depth > high - step) continue;
-    depths.push_back({e, best.inverse_depth, best.sigma, 0, best.views});
+    depths.push_back({e, best.inverse_depth, best.sigma, 0, best.views, best.lag, best.lag_sigma});
   }
   return depths;
 }

@@ -13,16 +13,18 @@ struct EdgeStereoOptions {
   double max_rival_share = 0.8;  // another depth with as much of the best one's support makes it ambiguous
   double edge_sigma_px = 0.35;   // of an edge's place in one image, poses' errors included
   double max_relative_sigma = 0.06;  // of the depth; more is no measurement
+  double lag_sigma_px = 0.4;         // of an edge in event views, beside what is known of all
   double side_tolerance = 0.5;       // log intensity: by which one side at least must look the same
 };
 
 /// A depth measured for an edge of a view.
 struct EdgeDepth {
-  int edge = 0;              // index into the view's edges
-  double inverse_depth = 0;  // 1/m, along the optical axis
-  double sigma = 0;          // of it, 1/m
-  double slope = 0;          // of the inverse depth along the edge's tangent, 1/m per pixel
-  double views = 0;          // that agree
+  int edge = 0;                   // index into the view's edges
+  double inverse_depth = 0;       // 1/m, along the optical axis
+  double sigma = 0;               // of it, 1/m
+  double slope = 0;               // of the inverse depth along the edge's tangent, 1/m per pixel
+  double views = 0;               // that agree
+  double lag = 0, lag_sigma = 0;  // px, by which event views see it behind its place; sigma 0: not known
 };
 
 /// Depth of the edges of one view from its neighbours, semi-dense multi-view stereo on edges.
@@ -37,8 +39,10 @@ class EdgeStereo {
   EdgeStereo(const std::vector<PosedEdges>& views, const EdgeStereoOptions& options)
       : views_(views), options_(options) {}
 
-  /// `stride`: every how many-th edge of the view is measured. Ascending by edge.
-  std::vector<EdgeDepth> Measure(int key, const std::vector<int>& neighbours, int stride) const;
+  /// `stride`: every how many-th edge of the view is measured. `typical_depth`: m, of the scene; which edges
+  /// an event camera's views show is told by it. Ascending by edge.
+  std::vector<EdgeDepth> Measure(int key, const std::vector<int>& neighbours, int stride,
+                                 double typical_depth) const;
 
  private:
   struct Neighbour;

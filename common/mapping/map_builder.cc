@@ -12,7 +12,7 @@
 namespace evit {
 namespace {
 
-constexpr double kFirstGuess = 1.5;           // m: of the scene's depth
+constexpr int kLagRounds = 4;
 constexpr int kProbes = 6;                    // key views that the scene's depth is found from
 constexpr std::size_t kEdgesPerKey = 16'000;  // measured, at most: of larger images every n-th edge pixel
 
@@ -26,26 +26,33 @@ int StrideOf(const PosedEdges& view, std::size_t limit) {
   return 1 + static_cast<int>(view.edges.edges().size() / limit);
 }
 
-// The middle depth of the edges, from a few key views; 0 where none could be measured.
-double FindDepth(const std::vector<PosedEdges>& views, const std::vector<int>& keys,
-                 const MapBuilderOptions& options) {
-  const EdgeStereo stereo(views, options.stereo);
-  double depth = kFirstGuess;
-  for (int round = 0; round < 2; ++round) {
-    const int n = std::min(kProbes, static_cast<int>(keys.size()));
-    std::vector<std::vector<double>> found(n);
-    ParallelFor(n, options.threads, [&](int k) {
-      const int key = keys[(2 * k + 1) * keys.size() / (2 * static_cast<std::size_t>(n))];
-      const auto neighbours = ChooseNeighbours(views, key, depth, options.choice);
-      for (const EdgeDepth& d : stereo.Measure(key, neighbours, StrideOf(views[key], 1000)))
-        found[k].push_back(1 / d.inverse_depth);
-    });
-    std::vector<double> depths;
-    for (const auto& part : found) depths.insert(depths.end(), part.begin(), part.end());
-    if (depths.size() < 50) return round == 0 ? 0 : depth;
-    depth = Median(depths);
+// Moves the edges of a view on by `lag_px`, the way they go.
+void MoveOn(double lag_px, double depth, PosedEdges* view) {
+  const Camera& c = view->camera;
+  std::vector<EdgePixel> edges = view->edges.edges();
+  for (EdgePixel& edge : edges) {
+    const Eigen::Vector3d ray((edge.pixel.x() - c.cx) / c.fx, (edge.pixel.y() - c.cy) / c.fy, 1);
+    edge.pixel += static_cast<float>(lag_px * view->sweep.Way(c, depth * ray, edge.normal)) * edge.normal;
   }
-  return depth;
+  view->edges =
+      EdgeImage(view->edges.width(), view->edges.height(), std::move(edges), view->edges.has_sides());
+}
+
+// Depths of some edges of a few key views.
+std::vector<EdgeDepth> Probe(const std::vector<PosedEdges>& views, double depth,
+                             const MapBuilderOptions& options) {
+  const std::vector<int> keys = ChooseKeyViews(views, options.choice);
+  const EdgeStereo stereo(views, options.stereo);
+  const int n = std::min(kProbes, static_cast<int>(keys.size()));
+  std::vector<std::vector<EdgeDepth>> found(n);
+  ParallelFor(n, options.threads, [&](int k) {
+    const int key = keys[(2 * k + 1) * keys.size() / (2 * static_cast<std::size_t>(n))];
+    const auto neighbours = ChooseNeighbours(views, key, depth, options.choice);
+    found[k] = stereo.Measure(key, neighbours, StrideOf(views[key], 1000), depth);
+  });
+  std::vector<EdgeDepth> depths;
+  for (const auto& part : found) depths.insert(depths.end(), part.begin(), part.end());
+  return depths;
 }
 
 void RequireMotion(const std::vector<PosedEdges>& views, double depth, const MapBuilderOptions& options) {
@@ -77,6 +84,47 @@ void Finish(std::vector<PosedEdges> views, const std::vector<KeyDepths>& depths,
 
 }  // namespace
 
+double SceneDepth(const std::vector<PosedEdges>& views, const MapBuilderOptions& options) {
+  double depth = kFirstDepth;
+  for (int round = 0; round < 2; ++round) {
+    std::vector<double> depths;
+    for (const EdgeDepth& d : Probe(views, depth, options)) depths.push_back(1 / d.inverse_depth);
+    if (depths.size() < 50) return round == 0 ? 0 : depth;
+    depth = Median(depths);
+  }
+  return depth;
+}
+
+double TakeOutLag(double depth, const MapBuilderOptions& options, std::vector<PosedEdges>* views) {
+  MapBuilderOptions unknown = options;
+  unknown.stereo.lag_sigma_px = 2;
+  double total = 0;
+  // Far off, edges find their like in part only, and say too little.
+  for (int round = 0; round < kLagRounds; ++round) {
+    std::vector<double> lags;
+    for (const EdgeDepth& d : Probe(*views, depth, unknown)) {
+      if (d.lag_sigma > 0 && d.lag_sigma < 0.5) lags.push_back(d.lag);
+    }
+    if (lags.size() < 50) break;
+    const double lag = Median(lags);
+    for (PosedEdges& view : *views) MoveOn(lag, depth, &view);
+    total += lag;
+    if (std::abs(lag) < 0.03) break;
+  }
+  return total;
+}
+
+MapBuilderOptions OptionsForEvents(MapBuilderOptions options) {
+  // A view shows the edges across its motion alone: more of them, and from nearer by.
+  options.choice.key_distance_m = 0.01;
+  options.choice.key_angle_deg = 2;
+  options.choice.neighbours = 24;
+  options.stereo.edge_sigma_px = options.adjustment.edge_sigma_px = 0.6;
+  options.stereo.min_share = 0.4;
+  options.adjustment.min_share = 0.3;
+  return options;
+}
+
 BuiltMap BuildMapFromDepths(std::vector<PosedEdges> views, std::vector<KeyDepths> depths,
                             const MapBuilderOptions& options, const MapProgress& progress) {
   BuiltMap map;
@@ -106,16 +154,15 @@ BuiltMap BuildMap(std::vector<PosedEdges> views, const MapBuilderOptions& option
   RequireMotion(views, options.typical_depth_m > 0 ? options.typical_depth_m : options.stereo.min_depth_m,
                 options);
   BuiltMap map;
-  const std::vector<int> keys = ChooseKeyViews(views, options.choice);
   progress(0, "looking for the scene's depth");
-  map.typical_depth_m =
-      options.typical_depth_m > 0 ? options.typical_depth_m : FindDepth(views, keys, options);
+  map.typical_depth_m = options.typical_depth_m > 0 ? options.typical_depth_m : SceneDepth(views, options);
   if (map.typical_depth_m <= 0) {
     throw std::runtime_error(
         "hardly an edge agrees between the views: the poses do not belong to these images (another clock, "
         "order or frame), the camera's calibration is another one's, or the camera hardly moved");
   }
 
+  const std::vector<int> keys = ChooseKeyViews(views, options.choice);
   std::vector<KeyDepths> depths(keys.size());
   {
     const EdgeStereo stereo(views, options.stereo);
@@ -124,7 +171,8 @@ BuiltMap BuildMap(std::vector<PosedEdges> views, const MapBuilderOptions& option
     ParallelFor(static_cast<int>(keys.size()), options.threads, [&](int k) {
       const PosedEdges& view = views[keys[k]];
       const auto neighbours = ChooseNeighbours(views, keys[k], map.typical_depth_m, options.choice);
-      depths[k] = {keys[k], stereo.Measure(keys[k], neighbours, StrideOf(view, kEdgesPerKey))};
+      depths[k] = {keys[k],
+                   stereo.Measure(keys[k], neighbours, StrideOf(view, kEdgesPerKey), map.typical_depth_m)};
       SmoothAlongEdges(view, options.fusion, &depths[k].depths);
       const std::lock_guard<std::mutex> lock(mutex);
       progress(0.05 + 0.6 * ++done / static_cast<double>(keys.size()), "depth of edges");

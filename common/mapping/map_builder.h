@@ -27,11 +27,26 @@ struct BuiltMap {
   std::vector<MappedPoint> points;
   std::vector<SE3> poses;  // T_map_camera of each view, adjusted
   double typical_depth_m = 0;
+  double event_lag_px = 0;  // that was put right before
   int key_views = 0;
   std::size_t measured = 0;   // depths
   std::size_t confirmed = 0;  // of them, by other views
   AdjustmentSummary adjustment;
 };
+
+/// m: how far away things are taken to be before anything is known of it.
+inline constexpr double kFirstDepth = 1.5;
+
+/// What is different where the views are an event camera's (EventView).
+MapBuilderOptions OptionsForEvents(MapBuilderOptions options);
+
+/// The middle depth of the edges, m, from a few key views; 0 where hardly any could be measured.
+double SceneDepth(const std::vector<PosedEdges>& views, const MapBuilderOptions& options);
+
+/// Events come late: a pixel fires when its light has changed by a whole threshold, and by then the edge has
+/// moved on, by as many pixels whatever its speed. Moves the edges of event views on by what the edges of a
+/// few key views say that are seen to go both ways, and returns it, px. `depth`: m, of the scene.
+double TakeOutLag(double depth, const MapBuilderOptions& options, std::vector<PosedEdges>* views);
 
 /// How far it is, 0..1, and with what.
 using MapProgress = std::function<void(double share, const std::string& what)>;

@@ -88,7 +88,7 @@ class PaintedScene {
 
   const std::vector<Rectangle>& rectangles() const { return rectangles_; }
 
- private:
+  /// 0..255, of what a ray first meets.
   double Grey(const Eigen::Vector3d& from, const Eigen::Vector3d& ray) const {
     double grey = 120, nearest = std::numeric_limits<double>::max();
     for (const Rectangle& r : rectangles_) {
@@ -103,6 +103,7 @@ class PaintedScene {
     return grey;
   }
 
+ private:
   std::vector<Rectangle> rectangles_;
 };
 

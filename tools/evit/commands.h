@@ -15,6 +15,7 @@ void AddMapCommand(CLI::App* app);
 /// build, check: subcommands of map.
 void AddMapBuild(CLI::App* map);
 void AddMapCheck(CLI::App* map);
+void AddMapCompare(CLI::App* map);
 /// merge, crop, transform.
 void AddMapEdits(CLI::App* map);
 /// photometric, a subcommand of map.

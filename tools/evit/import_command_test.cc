@@ -84,8 +84,9 @@ TEST_F(ImportCommandTest, ACalibrationBecomesARigFileAndTurnsTheTruthIntoTheImus
 
 TEST_F(ImportCommandTest, ACalibrationOfAnotherCameraLeavesNothingBehind) {
   const std::string path = M3edFile(folder_), rig_path = folder_.File("rig.textproto");
-  EXPECT_THAT(Import(path + " --size 640x480 --calibration " + path + " --rig-out " + rig_path + " --out " + log_, 1),
-              HasSubstr("is of a camera of 1280x720"));
+  EXPECT_THAT(
+      Import(path + " --size 640x480 --calibration " + path + " --rig-out " + rig_path + " --out " + log_, 1),
+      HasSubstr("is of a camera of 1280x720"));
   EXPECT_FALSE(std::filesystem::exists(log_));
   EXPECT_FALSE(std::filesystem::exists(rig_path));
 }

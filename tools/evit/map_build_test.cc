@@ -7,10 +7,15 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/bus/log_file.h"
+#include "common/config/rig_file.h"
 #include "common/evaluation/trajectory.h"
 #include "common/map/map_file.h"
+#include "common/wire/event_wire.h"
+#include "tests/helpers/painted_events.h"
 #include "tests/helpers/painted_scene.h"
 #include "tests/helpers/paths.h"
 
@@ -109,6 +114,89 @@ TEST_F(MapBuildTest, MakesAMapThatLiesOnTheEdges) {
   EXPECT_EQ(info.code, 0);
   EXPECT_THAT(info.output, HasSubstr("sigma"));
   EXPECT_TRUE(fs::exists(File("views/top.png")) && fs::exists(File("views/side.png")));
+}
+
+// One round on a circle before the wall, with a body that is not the camera and clocks that differ.
+class MapOfEventsTest : public MapBuildTest {
+ protected:
+  static void SetUpTestSuite() {
+    MapBuildTest::SetUpTestSuite();
+    constexpr Utime kBegin = 1'600'000'000'000'000, kStep = 1'000;
+    Rig rig;
+    rig.camera.width = 200, rig.camera.height = 150;
+    rig.camera.fx = rig.camera.fy = 150;
+    rig.camera.cx = 100, rig.camera.cy = 75;
+    rig.camera_time_offset = 7'000;
+    rig.T_body_camera = SE3(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.02, -0.03, 0.05});
+    rig.imu_rate_hz = 200;
+    rig.imu_noise.gyro_density = rig.imu_noise.accel_density = 1e-3;
+    rig.imu_noise.gyro_random_walk = rig.imu_noise.accel_random_walk = 1e-5;
+    WriteRig(File("rig.textproto"), rig, "test", "");
+    const std::vector<SE3> cameras = CircleOfPoses(216, 0.16);
+    Trajectory body;
+    for (std::size_t k = 0; k < cameras.size(); ++k)
+      body.push_back({kBegin + static_cast<Utime>(k) * kStep, cameras[k] * rig.T_body_camera.Inverse()});
+    WriteTum(File("body.tum"), body);
+    const EventArray events =
+        PaintedEvents(PaintedScene::Wall(), rig.camera, cameras, kBegin - rig.camera_time_offset, kStep);
+    LogWriter log(File("events.lcmlog"));
+    std::vector<std::uint8_t> bytes;
+    std::int64_t seq = 0;
+    for (std::size_t k = 0; k < events.size();) {
+      const Utime t = events.t[k];
+      k = EncodePacket(events, k, 1, seq++, &bytes);
+      log.Write(t, "EVENTS", bytes.data(), bytes.size());
+    }
+    log.Close();
+  }
+
+  static Outcome OfEvents(const std::string& poses, const std::string& more = "") {
+    return Map("build --events " + File("events.lcmlog") + " --poses " + File(poses) + " --rig " +
+               File("rig.textproto") + " --out " + File("events.pcd") + " " + more);
+  }
+};
+
+TEST_F(MapOfEventsTest, LiesOnTheEdges) {
+  const Outcome outcome = OfEvents("body.tum");
+  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  const PointMap map = LoadMap(File("events.pcd")).map;
+  ASSERT_GT(map.points.size(), 300U);
+  const PaintedScene scene = PaintedScene::Wall();
+  std::vector<double> errors;
+  for (const Eigen::Vector3f& p : map.points) errors.push_back(scene.DistanceToEdge(p.cast<double>()));
+  std::sort(errors.begin(), errors.end());
+  EXPECT_LT(errors[errors.size() / 2], 0.01);
+
+  // It compares well with a map of pictures of the same wall, and badly with itself moved by 5 cm.
+  ASSERT_EQ(Build("pictures", "poses.tum").code, 0);
+  const Outcome compared = Map("compare " + File("events.pcd") + " " + File("map.pcd") + " --json");
+  ASSERT_EQ(compared.code, 0) << compared.output;
+  const auto json = nlohmann::json::parse(compared.output);
+  EXPECT_EQ(json["points"], map.points.size());
+  EXPECT_LT(json["median_m"].get<double>(), 0.015);
+  ASSERT_EQ(Map("transform " + File("events.pcd") +
+                " --transform '1 0 0 0 0 1 0 0.05 0 0 1 0 0 0 0 1' --out " + File("moved.pcd"))
+                .code,
+            0);
+  const auto moved = nlohmann::json::parse(
+      Map("compare " + File("moved.pcd") + " " + File("events.pcd") + " --json").output);
+  EXPECT_GT(moved["beyond"].get<double>(), 0.9);
+}
+
+TEST_F(MapOfEventsTest, RefusesAnotherClockACameraAtRestAndWhatIsMissing) {
+  std::ofstream(File("later.tum")) << "1700000000 0 0 0 0 0 0 1\n1700000000.1 0.1 0 0 0 0 0 1\n";
+  std::ofstream(File("rest.tum")) << "1600000000 0 0 0 0 0 0 1\n1600000000.1 0 0 0 0 0 0 1\n";
+  const std::pair<Outcome, std::string> refused[] = {
+      {OfEvents("later.tum"), "another clock"},
+      {OfEvents("rest.tum"), "hardly moves"},
+      {OfEvents("body.tum", "--seconds 5:6"), "no pose in the seconds"},
+      {Map("build --events " + File("events.lcmlog") + " --out " + File("events.pcd")), "--poses and --rig"}};
+  fs::remove(File("events.pcd"));
+  for (const auto& [outcome, words] : refused) {
+    EXPECT_NE(outcome.code, 0) << words;
+    EXPECT_THAT(outcome.output, HasSubstr(words));
+  }
+  EXPECT_FALSE(fs::exists(File("events.pcd")));
 }
 
 TEST_F(MapBuildTest, RefusesWhatMakesNoMapAndLeavesNothingBehind) {

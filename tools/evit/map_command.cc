@@ -103,6 +103,7 @@ void AddMapCommand(CLI::App* app) {
 
   AddMapBuild(map);
   AddMapCheck(map);
+  AddMapCompare(map);
   AddMapEdits(map);
   AddMapPhotometric(map);
 

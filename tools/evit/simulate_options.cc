@@ -180,6 +180,14 @@ void SimulateOptions::AddSensors(CLI::App* command) {
   camera.Add("--noise-hz", &s.noise_hz, "Background events per pixel and second");
   camera.Add("--hot-pixels", &s.hot_pixels, "Number of hot pixels");
   camera.Add("--max-step-px", &settings_.max_step_px, "Image motion between renders");
+  const Group frames(command, "Regular camera");
+  frames.Add(
+      "--frames", &settings_.frames.rate_hz,
+      "Pictures a second of a regular camera at the event camera's place: camera/, camera_poses.tum and "
+      "camera.textproto; 0: none");
+  frames.Add("--frame-scale", &settings_.frames.scale, "Their size, share of the event camera's");
+  frames.Add("--frame-exposure", &settings_.frames.exposure_ms, "ms; longer ones blur");
+  frames.Add("--frame-noise", &settings_.frames.grey_noise, "Grey levels");
   const Group imu(command, "IMU");
   imu.Add("--accel-bias", &settings_.imu.accel_bias, "Initial bias, m/s^2, in a random direction");
   imu.Add("--gyro-bias", &settings_.imu.gyro_bias, "Initial bias, rad/s, in a random direction");
@@ -215,8 +223,11 @@ void SimulateOptions::AddMap(CLI::App* command) {
         return ParseHoles(text, &holes);
       }));
   group.Flag("--map-only", &settings_.map_only,
-             "Write map.pcd (and rgbd/) alone: another map for a sequence simulated before with the same "
+             "Write map.pcd (and rgbd/, camera/, true_edges.pcd) alone: another map for a sequence simulated "
+             "before with the same "
              "options");
+  group.Flag("--true-edges", &settings_.true_edges,
+             "Also write true_edges.pcd: all edges in view, dense and without errors, to compare maps with");
   group.Flag("--rgbd", &settings_.rgbd,
              "Also write the map's views: rgbd/{images,depth}/*.png, poses.txt, K.txt (grey; depth in mm, 16 "
              "bit)");

@@ -94,7 +94,13 @@ std::string SummaryOf(const std::string& path, const BuiltMap& built) {
       built.measured > 0 ? 100.0 * static_cast<double>(built.confirmed) / built.measured : 0.0,
       built.adjustment.rms_after_px, built.adjustment.rms_before_px, 1e3 * built.adjustment.moved_m,
       built.adjustment.turned_deg);
-  return text;
+  std::string summary = text;
+  if (built.event_lag_px != 0) {
+    std::snprintf(text, sizeof text, "  events   %.2f px behind their edges: put right\n",
+                  built.event_lag_px);
+    summary += text;
+  }
+  return summary;
 }
 
 }  // namespace evit::mapping

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "tools/simulation/edge_pixels.h"
+#include "tools/simulation/grey_image.h"
 #include "tools/simulation/random.h"
 
 namespace evit::simulation {
@@ -12,17 +13,6 @@ namespace {
 
 constexpr double kDegree = 0.017453292519943295;
 constexpr int kViewsAlike = 3;  // views that are matched with each other and so err together
-
-// What a camera delivers: gamma, noise, whole grey levels.
-cv::Mat GreyImage(const View& view, const Camera& camera, const ImageMapSettings& settings, Random* random) {
-  cv::Mat grey(camera.height, camera.width, CV_32F);
-  for (std::size_t i = 0; i < view.image.size(); ++i) {
-    const double light = std::clamp(view.image[i] / 255.0, 0.0, 1.0);
-    const double level = 255 * std::pow(light, 1 / settings.gamma) + settings.grey_noise * random->Gaussian();
-    grey.ptr<float>()[i] = static_cast<float>(std::clamp(std::round(level), 0.0, 255.0));
-  }
-  return grey;
-}
 
 // Of the piece of an edge at a place of the map.
 Random RandomOfPiece(const Eigen::Vector3d& point, double piece_m, std::uint64_t seed, std::uint64_t stream) {
@@ -62,7 +52,8 @@ std::vector<Eigen::Vector3d> PointsOfImage(const Renderer& renderer, const SE3& 
   const auto group = static_cast<std::uint64_t>(view / kViewsAlike);
   std::vector<Eigen::Vector3d> points;
   for (const EdgePixel& edge :
-       FindEdgesIn(GreyImage(image, camera, settings, &random), image, settings.grey_threshold)) {
+       FindEdgesIn(GreyImage(image.image, camera, settings.gamma, settings.grey_noise, &random), image,
+                   settings.grey_threshold)) {
     Eigen::Vector3d ray;
     if (!camera.Unproject(edge.pixel, &ray)) continue;
     const Eigen::Vector2d epipolar = baseline.z() * ray.head<2>() - baseline.head<2>();

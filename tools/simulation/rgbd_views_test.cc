@@ -7,7 +7,9 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/config/rig_file.h"
 #include "tools/simulation/builtin_motion.h"
+#include "tools/simulation/camera_frames.h"
 #include "tools/simulation/load_motion.h"
 #include "tools/simulation/place_in_room.h"
 #include "tools/simulation/room.h"
@@ -158,6 +160,37 @@ TEST_F(RgbdViewsTest, UnwritableFolderIsNamed) {
   std::ofstream(folder_) << "a file";
   EXPECT_THROW(WriteRgbdViews(folder_.string(), scene_, rig_, motion_.spline, times_, settings_, 1, 1),
                std::runtime_error);
+}
+
+TEST_F(RgbdViewsTest, ARegularCamerasPicturesHaveStampsPosesAndACalibration) {
+  FrameSettings settings;
+  settings.rate_hz = 10;
+  settings.scale = 0.5;
+  settings.exposure_ms = 0;
+  settings.grey_noise = 0;
+  rig_.T_marker_body = {ExpSO3(Eigen::Vector3d(0.2, 0.1, -0.3)), Eigen::Vector3d(0.01, 0.02, 0.03)};
+  WriteCameraFrames(folder_.string(), scene_, rig_, motion_.spline, motion_.begin, motion_.begin + 300'000,
+                    settings, 1, 2, [](double) {});
+  const MountedCamera camera = LoadMountedCamera((folder_ / "camera.textproto").string());
+  EXPECT_TRUE(camera.mounted);
+  EXPECT_LT((camera.T_marker_body.p - rig_.T_marker_body.p).norm(), 1e-9);
+  EXPECT_EQ(camera.camera.width, 80);
+  const Trajectory poses = ReadTum((folder_ / "camera_poses.tum").string());
+  ASSERT_EQ(poses.size(), 4U);
+  const Renderer renderer(camera.camera, scene_);
+  for (const StampedPose& pose : poses) {
+    char name[40];
+    std::snprintf(name, sizeof name, "camera/%lld.%06lld.png", static_cast<long long>(pose.t / 1'000'000),
+                  static_cast<long long>(pose.t % 1'000'000));
+    const cv::Mat picture = cv::imread((folder_ / name).string(), cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(picture.size(), cv::Size(80, 60)) << name;
+    View view;
+    renderer.Render(pose.pose, &view);
+    double off = 0;  // of the grey levels, where the camera says it was
+    for (std::size_t i = 0; i < view.image.size(); ++i)
+      off += std::abs(255 * std::pow(view.image[i] / 255.0, 1 / settings.gamma) - picture.data[i]);
+    EXPECT_LT(off / static_cast<double>(view.image.size()), 0.6);
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "tools/simulation/camera_frames.h"
 #include "tools/simulation/disturbance_settings.h"
 #include "tools/simulation/event_sensor.h"
 #include "tools/simulation/map_settings.h"
@@ -30,8 +31,11 @@ struct SimulationSettings {
   ImuSettings imu;
   MapSettings map;
   DisturbanceSettings disturbances;
-  bool rgbd = false;      // also the map's views as images with depth
-  bool map_only = false;  // write map.pcd (and rgbd/) alone: another map for a sequence that is there
+  FrameSettings frames;
+  bool true_edges = false;  // also a dense map without errors
+  bool rgbd = false;        // also the map's views as images with depth
+  bool map_only = false;    // write map.pcd (and rgbd/, camera/, true_edges.pcd) alone: another map for a
+                            // sequence that is there
   int previews = 0;
   int threads = 2;
 };

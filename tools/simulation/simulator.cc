@@ -10,6 +10,7 @@
 #include "common/config/rig_file.h"
 #include "common/map/map_file.h"
 #include "tools/formats/vector/event_file_writer.h"
+#include "tools/simulation/camera_frames.h"
 #include "tools/simulation/edge_map.h"
 #include "tools/simulation/event_stage.h"
 #include "tools/simulation/load_motion.h"
@@ -55,6 +56,9 @@ void Check(const SimulationSettings& s, const Rig& rig) {
           "the mapper's threshold must be over 0, errors not below");
   require(images.missing_share >= 0 && images.missing_share < 1, "missing pieces must be a share of 0 to 1");
   require(images.view_turn_deg >= 0 && images.view_turn_deg < 5, "a view's error must be 0 to 5 deg");
+  require(s.frames.rate_hz >= 0 && s.frames.rate_hz <= 200, "frames must be 0 to 200 a second");
+  require(s.frames.scale >= 0.1 && s.frames.scale <= 4, "frames must be 0.1 to 4 of the event camera's size");
+  require(s.frames.exposure_ms >= 0 && s.frames.exposure_ms <= 50, "exposure must be 0 to 50 ms");
   require(s.map.interval_s >= 0.01, "map interval must be at least 0.01 s");
   require(s.map.holes.share >= 0 && s.map.holes.share < 1, "the share of holes in the map must be 0 to 1");
   require(s.map.holes.share == 0 || (s.map.holes.diameter_m >= 0.01 && s.map.holes.diameter_m <= 10),
@@ -113,6 +117,35 @@ PointMap WriteMap(const SimulationSettings& settings, const Rig& rig, const Rend
   return map;
 }
 
+// All edges that the camera passes, where they are: what maps are compared with.
+MapSettings TrueEdges() {
+  MapSettings settings;
+  settings.interval_s = 0.05;
+  settings.min_move_m = 0.05;
+  settings.min_turn_deg = 5;
+  settings.edge_threshold = 0.04;
+  settings.depth_noise = settings.edge_noise_px = settings.view_jitter_m = settings.outlier_share = 0;
+  settings.voxel_m = 0.002;
+  settings.max_points = 5'000'000;
+  return settings;
+}
+
+// What else was asked for of the same motion in the same room.
+void WriteExtras(const SimulationSettings& settings, const Rig& rig, const Renderer& renderer,
+                 const Motion& motion, const StagedFolder& folder,
+                 const std::function<void(double)>& progress) {
+  if (settings.true_edges) {
+    int n_views = 0;
+    WritePcd(folder.File("true_edges.pcd"),
+             MakeEdgeMap(renderer, rig, motion.spline, motion.begin, motion.end, TrueEdges(), settings.seed,
+                         settings.threads, &n_views));
+  }
+  if (settings.frames.rate_hz > 0) {
+    WriteCameraFrames(folder.File(""), renderer.scene(), rig, motion.spline, motion.begin, motion.end,
+                      settings.frames, settings.seed, settings.threads, progress);
+  }
+}
+
 }  // namespace
 
 SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, const std::string& rig_name,
@@ -143,6 +176,7 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
   if (settings.map_only) {
     RequireSameSequence(settings, motion, imu);
     WriteMap(settings, rig, renderer, motion, folder, &summary);
+    WriteExtras(settings, rig, renderer, motion, folder, report);
     folder.Commit();
     report(1);
     return summary;
@@ -163,6 +197,9 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
   report(0.02);
   const PointMap map = WriteMap(settings, rig, renderer, motion, folder, &summary);
   report(0.05);
+  const double rest = settings.frames.rate_hz > 0 ? 0.6 : 0.94;  // of the time, for events
+  WriteExtras(settings, rig, renderer, motion, folder,
+              [&](double share) { report(0.05 + (0.94 - rest) * share); });
 
   const auto stamp = [&](double seconds) { return motion.begin + static_cast<Utime>(seconds * 1e6); };
   Disturbances disturbances;
@@ -190,7 +227,7 @@ SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, c
         for (Utime& t : shifted.t) t -= rig.camera_time_offset;
         writer.Append(shifted);
       },
-      [&](double share) { report(0.05 + 0.94 * share); });
+      [&](double share) { report(0.99 - rest * (1 - share)); });
   writer.Close();
   preview.Write(map, [&](const std::string& name) { return folder.File(name); });
   summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();

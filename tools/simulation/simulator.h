@@ -10,7 +10,8 @@
 namespace evit::simulation {
 
 /// Simulates a whole sequence into settings.out, in VECtor's file layout: <name>1.synced.{left_event.hdf5,
-/// imu.txt,gt.txt}, map.pcd, rgbd/ (see WriteRgbdViews), truth.tum (T_map_body), rig.textproto,
+/// imu.txt,gt.txt}, map.pcd, rgbd/ (see WriteRgbdViews), camera/ (see
+/// WriteCameraFrames), true_edges.pcd, truth.tum (T_map_body), rig.textproto,
 /// simulation.json, preview_*.png. Files appear there only when all are whole. `progress`: 0..1. Throws
 /// std::runtime_error on anything wrong.
 SimulationSummary Simulate(const SimulationSettings& settings, const Rig& rig, const std::string& rig_name,

@@ -23,7 +23,8 @@ Yaml Load(const std::string& path) {
   return ParseSimpleYaml(text, path);
 }
 
-std::vector<double> Numbers(const Yaml& yaml, const std::string& path, const std::string& key, std::size_t n) {
+std::vector<double> Numbers(const Yaml& yaml, const std::string& path, const std::string& key,
+                            std::size_t n) {
   const auto found = yaml.find(key);
   if (found == yaml.end()) throw std::runtime_error(path + ": " + key + " is missing");
   std::vector<double> numbers(found->second.size());
@@ -32,15 +33,17 @@ std::vector<double> Numbers(const Yaml& yaml, const std::string& path, const std
       throw std::runtime_error(path + ": " + key + ": " + found->second[k] + " is no number");
   }
   if (numbers.size() != n) {
-    throw std::runtime_error(path + ": " + key + " has " + std::to_string(numbers.size()) + " numbers, expected " +
-                             std::to_string(n));
+    throw std::runtime_error(path + ": " + key + " has " + std::to_string(numbers.size()) +
+                             " numbers, expected " + std::to_string(n));
   }
   return numbers;
 }
 
 }  // namespace
 
-bool IsDsecCalibration(const std::string& path) { return Load(path).count("intrinsics.cam0.camera_matrix") > 0; }
+bool IsDsecCalibration(const std::string& path) {
+  return Load(path).count("intrinsics.cam0.camera_matrix") > 0;
+}
 
 Rig ReadDsecCalibration(const std::string& path, const std::string& side) {
   const Yaml yaml = Load(path);

@@ -16,7 +16,8 @@ constexpr double kRate = 400;  // Hz
 std::vector<double> Numbers(const H5File& file, const std::string& name, std::size_t n) {
   const H5Rows rows = file.Open(name);
   if (rows.rows() * rows.columns() != n)
-    rows.Fail("has " + std::to_string(rows.rows() * rows.columns()) + " numbers, expected " + std::to_string(n));
+    rows.Fail("has " + std::to_string(rows.rows() * rows.columns()) + " numbers, expected " +
+              std::to_string(n));
   return rows.ReadAll<double>();
 }
 

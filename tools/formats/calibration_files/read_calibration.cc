@@ -35,8 +35,9 @@ FoundCalibration ReadOne(const std::string& path, const CalibrationChoice& choic
     found.rig = ReadDsecCalibration(file, choice.side);
     found.imu_assumed = true;
     if (!choice.T_body_camera)
-      throw std::runtime_error(file + ": says nothing of an IMU; give where the camera is in its frame with "
-                                      "--t-body-camera \"x y z qx qy qz qw\"");
+      throw std::runtime_error(file +
+                               ": says nothing of an IMU; give where the camera is in its frame with "
+                               "--t-body-camera \"x y z qx qy qz qw\"");
   } else {
     found.source = KalibrRigName(path);
     found.rig = LoadKalibrRig(path);
@@ -66,7 +67,8 @@ FoundCalibration ReadCalibration(const std::vector<std::string>& paths, const Ca
     found.rig.imu_rate_hz = 0;
   }
   if (found.rig.camera.width != choice.width || found.rig.camera.height != choice.height) {
-    throw std::runtime_error(cameras.front() + ": is of a camera of " + std::to_string(found.rig.camera.width) + "x" +
+    throw std::runtime_error(cameras.front() + ": is of a camera of " +
+                             std::to_string(found.rig.camera.width) + "x" +
                              std::to_string(found.rig.camera.height) + " pixels, the recording of one of " +
                              std::to_string(choice.width) + "x" + std::to_string(choice.height) +
                              "; give --size where the recording does not say it");

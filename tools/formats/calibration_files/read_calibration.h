@@ -21,8 +21,8 @@ struct FoundCalibration {
   bool imu_assumed = false;  // the file has no IMU: its noise is that of a consumer IMU, its rate 0
 };
 
-/// A published calibration as a rig, recognised by its contents: Basalt's JSON (TUM-VIE; a second such file with
-/// T_imu_marker tells where the truth's body is), M3ED's HDF5, DSEC's cam_to_cam.yaml, Kalibr's
+/// A published calibration as a rig, recognised by its contents: Basalt's JSON (TUM-VIE; a second such file
+/// with T_imu_marker tells where the truth's body is), M3ED's HDF5, DSEC's cam_to_cam.yaml, Kalibr's
 /// camchain-imucam.yaml (MVSEC). Throws std::runtime_error naming the file and what is missing.
 FoundCalibration ReadCalibration(const std::vector<std::string>& paths, const CalibrationChoice& choice);
 

@@ -28,8 +28,8 @@ void PutText(H5Maker* file, const std::string& name, const std::string& text) {
   H5Tclose(type);
 }
 
-// The IMU is 1 m to the right of the left camera and looks to where the camera's x axis points; the right camera
-// is 0.1 m to the right of the left one.
+// The IMU is 1 m to the right of the left camera and looks to where the camera's x axis points; the right
+// camera is 0.1 m to the right of the left one.
 std::string M3ed(const TemporaryFolder& folder) {
   const std::string path = folder.File("data.h5");
   H5Maker file(path);
@@ -159,8 +159,11 @@ TEST(ReadCalibration, OthersAreRefusedByName) {
   const TemporaryFolder folder("others");
   EXPECT_THAT([&] { ReadCalibration({folder.File("none.json")}, Choice(640, 480)); },
               ThrowsMessage<std::runtime_error>(HasSubstr("there is no such file")));
-  EXPECT_THAT([&] { ReadCalibration({folder.Write("a.yaml", "cam0:\n  resolution: [640, 480]\n")}, Choice(640, 480)); },
-              ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("a.yaml"), HasSubstr("camera_model"))));
+  EXPECT_THAT(
+      [&] {
+        ReadCalibration({folder.Write("a.yaml", "cam0:\n  resolution: [640, 480]\n")}, Choice(640, 480));
+      },
+      ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("a.yaml"), HasSubstr("camera_model"))));
 }
 
 }  // namespace

@@ -1,0 +1,110 @@
+#include "tools/mapping/map_making.h"
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "common/config/rig_file.h"
+#include "tools/mapping/build_report.h"
+#include "tools/mapping/rgbd_views.h"
+#include "tools/terminal/progress_bar.h"
+
+namespace evit::mapping {
+namespace {
+
+void Note(const FrameList& list, const ReadFrames& frames) {
+  for (const std::string& note : NotesOn(list, frames)) std::fprintf(stderr, "note: %s\n", note.c_str());
+}
+
+MadeMap Build(ReadFrames frames, const MapBuilderOptions& options) {
+  terminal::ProgressBar bar("building");
+  return {BuildMap(std::move(frames.views), options,
+                   [&](double share, const std::string& what) { bar.Show(share, what); }),
+          std::move(frames.stamps)};
+}
+
+MadeMap MakeFromImages(const MapMaking& m) {
+  if (m.poses.empty() || m.camera.empty()) throw std::runtime_error("--images needs --poses and --camera");
+  const Trajectory poses = ReadTum(m.poses);
+  const Camera camera = LoadCamera(m.camera);
+  FrameList list = ListFrames(m.images, poses, m.poses);
+  if (!m.frames.empty()) TakeRange(m.frames, &list);
+  ReadFrames frames;
+  {
+    terminal::ProgressBar bar("reading " + std::to_string(list.frames.size()) + " pictures");
+    bar.Show(0);
+    frames = ReadEdges(list, camera, m.reader, [&](double share) { bar.Show(share); });
+  }
+  Note(list, frames);
+  return Build(std::move(frames), m.build);
+}
+
+MadeMap MakeFromRgbd(const MapMaking& m) {
+  const auto [begin, end] =
+      m.frames.empty() ? std::make_pair(std::size_t{0}, std::size_t{1'000'000}) : ParseRange(m.frames);
+  RgbdEdges edges;
+  {
+    terminal::ProgressBar bar("reading " + m.rgbd);
+    bar.Show(0);
+    edges = ReadRgbd(m.rgbd, begin, end, m.reader, m.build.stereo.max_depth_m,
+                     [&](double share) { bar.Show(share); });
+  }
+  Note({}, edges.frames);
+  terminal::ProgressBar bar("building");
+  return {BuildMapFromDepths(std::move(edges.frames.views), std::move(edges.depths), m.build,
+                             [&](double share, const std::string& what) { bar.Show(share, what); }),
+          std::move(edges.frames.stamps)};
+}
+
+Trajectory PartOf(const Trajectory& all, const std::optional<std::pair<double, double>>& seconds,
+                  const std::string& path) {
+  if (!seconds || all.empty()) return all;
+  Trajectory part;
+  for (const StampedPose& pose : all) {
+    const double t = ToSeconds(pose.t - all.front().t);
+    if (t >= seconds->first && t < seconds->second) part.push_back(pose);
+  }
+  if (part.empty()) throw std::runtime_error(path + ": holds no pose in the seconds asked for");
+  return part;
+}
+
+MadeMap MakeFromEvents(const MapMaking& m) {
+  if (m.poses.empty() || m.rig.empty()) throw std::runtime_error("--events needs --poses and --rig");
+  const Trajectory body = PartOf(ReadTum(m.poses), m.seconds, m.poses);
+  const Rig rig = LoadRig(m.rig);
+  MapBuilderOptions options = OptionsForEvents(m.build);
+  // How far things are says how events of a moment belong together; first by a guess, then as it was found.
+  double depth = options.typical_depth_m > 0 ? options.typical_depth_m : kFirstDepth;
+  ReadFrames frames;
+  for (int round = 0; round < 2; ++round) {
+    {
+      terminal::ProgressBar bar("reading events");
+      bar.Show(0);
+      frames = ReadEventViews(m.events, body, m.poses, rig, depth, m.event_reader,
+                              [&](double share) { bar.Show(share); });
+    }
+    if (m.build.typical_depth_m > 0) break;
+    const double found = SceneDepth(frames.views, options);
+    const bool near = std::abs(found - depth) < 0.2 * depth;
+    options.typical_depth_m = found;
+    if (found <= 0 || near) break;
+    depth = found;
+  }
+  Note({}, frames);
+  const double lag =
+      options.typical_depth_m > 0 ? TakeOutLag(options.typical_depth_m, options, &frames.views) : 0;
+  MadeMap made = Build(std::move(frames), options);
+  made.built.event_lag_px = lag;
+  return made;
+}
+
+}  // namespace
+
+MadeMap MakeMap(const MapMaking& making) {
+  if (!making.rgbd.empty()) return MakeFromRgbd(making);
+  if (!making.events.empty()) return MakeFromEvents(making);
+  if (!making.images.empty()) return MakeFromImages(making);
+  throw std::runtime_error("expected --images, --rgbd or --events");
+}
+
+}  // namespace evit::mapping

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/mapping/map_builder.h"
+#include "tools/mapping/event_views.h"
+#include "tools/mapping/frame_reader.h"
+
+namespace evit::mapping {
+
+/// What a map is made from, one of three, and how.
+struct MapMaking {
+  std::string images;  // folder of pictures: needs poses (of the camera) and camera
+  std::string rgbd;    // folder of RGB-D images with all they need
+  std::string events;  // LCM log: needs poses (of the body) and rig
+  std::string poses, camera, rig;
+  std::string frames;                                // "A:B" of pictures, empty: all
+  std::optional<std::pair<double, double>> seconds;  // of events, from the first pose; nothing: all
+  FrameReaderOptions reader;
+  EventReaderOptions event_reader;
+  MapBuilderOptions build;
+};
+
+struct MadeMap {
+  BuiltMap built;
+  std::vector<Utime> stamps;  // of its views
+};
+
+/// Makes it, with progress bars and notes on stderr. Throws std::runtime_error naming file, what is wrong and
+/// the remedy.
+MadeMap MakeMap(const MapMaking& making);
+
+}  // namespace evit::mapping
