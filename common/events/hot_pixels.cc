@@ -9,6 +9,8 @@ namespace {
 
 constexpr int kOverNeighbours = 10;  // a hot pixel fires this much more often than its neighbours
 
+constexpr std::uint16_t kMostCounted = std::numeric_limits<std::uint16_t>::max();
+
 }  // namespace
 
 HotPixels::HotPixels(int width, int height, double rate_hz)
@@ -38,10 +40,22 @@ void HotPixels::AdvanceTo(Utime t) {
 
 void HotPixels::Update(const EventArray& events, std::size_t begin, std::size_t end) {
   if (counts_.empty()) return;
-  for (std::size_t i = begin; i < end; ++i) {
-    if (!started_ || events.t[i] >= window_end_) AdvanceTo(events.t[i]);
-    std::uint16_t& count = counts_[events.y[i] * std::size_t(width_) + events.x[i]];
-    if (count < std::numeric_limits<std::uint16_t>::max()) ++count;
+  const auto width = static_cast<unsigned>(width_);
+  while (begin < end) {
+    if (!started_ || events.t[begin] >= window_end_) AdvanceTo(events.t[begin]);
+    const std::uint16_t *const x = events.x.data(), *const y = events.y.data();
+    std::uint16_t* const counts = counts_.data();
+    const Utime* const t = events.t.data();
+    // To the window's end, which few packets reach: without a branch for each event.
+    const std::size_t stop =
+        t[end - 1] < window_end_
+            ? end
+            : static_cast<std::size_t>(std::lower_bound(t + begin, t + end, window_end_) - t);
+    for (std::size_t i = begin; i < stop; ++i) {
+      std::uint16_t& count = counts[y[i] * width + x[i]];
+      count = static_cast<std::uint16_t>(count + (count < kMostCounted ? 1 : 0));
+    }
+    begin = stop;
   }
 }
 

@@ -46,6 +46,39 @@ bool StreamMerger::AddEvents(const EventArray& events, Utime watermark) {
     has_events_ = true;
     first_event_ = watermark_ = first;
   }
+  if (IsPlain(events)) {
+    Append(events);
+    watermark_ = std::max(watermark_, events.t.back() + offset_);
+  } else {
+    Filter(events);
+  }
+  watermark_ = std::max(watermark_, watermark + offset_);
+  return continued;
+}
+
+// Nothing in it to be left out, as good as always.
+bool StreamMerger::IsPlain(const EventArray& events) const {
+  if (events.size() == 0 || events.t.front() + offset_ < Watermark()) return false;
+  bool sorted = true;
+  for (std::size_t i = 1; i < events.size(); ++i) sorted &= events.t[i - 1] <= events.t[i];
+  std::uint16_t x = 0, y = 0;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    x = std::max(x, events.x[i]);
+    y = std::max(y, events.y[i]);
+  }
+  return sorted && x < width_ && y < height_;
+}
+
+void StreamMerger::Append(const EventArray& events) {
+  const std::size_t begin = events_.size(), n = events.size();
+  events_.t.resize(begin + n);
+  for (std::size_t i = 0; i < n; ++i) events_.t[begin + i] = events.t[i] + offset_;
+  events_.x.insert(events_.x.end(), events.x.begin(), events.x.end());
+  events_.y.insert(events_.y.end(), events.y.begin(), events.y.end());
+  events_.p.insert(events_.p.end(), events.p.begin(), events.p.end());
+}
+
+void StreamMerger::Filter(const EventArray& events) {
   for (std::size_t i = 0; i < events.size(); ++i) {
     const Utime t = events.t[i] + offset_;
     // With real time's lead, decisions up to Watermark() are made: what comes now is late for them.
@@ -60,8 +93,6 @@ bool StreamMerger::AddEvents(const EventArray& events, Utime watermark) {
     }
     events_.push_back(t, events.x[i], events.y[i], events.p[i]);
   }
-  watermark_ = std::max(watermark_, watermark + offset_);
-  return continued;
 }
 
 bool StreamMerger::AddImu(const ImuSample& sample) {

@@ -64,6 +64,10 @@ class StreamMerger {
   Utime first_event() const { return first_event_; }
 
  private:
+  bool IsPlain(const EventArray& events) const;
+  void Append(const EventArray& events);
+  void Filter(const EventArray& events);
+
   Utime Watermark() const;
 
   int width_, height_;
