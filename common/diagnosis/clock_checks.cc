@@ -74,7 +74,7 @@ Finding Span(const EventCensus& events, const std::vector<ImuSample>& imu, Utime
 Finding Lag(const EventCensus& events, const std::vector<ImuSample>& imu, Utime time_offset) {
   const RateLag lag = FindRateLag(events, imu, time_offset);
   const std::string figure =
-      FormatText("event rate follows the gyro best at %+.0f ms (correlation %.2f; as it is %.2f)",
+      FormatText("event rate follows the gyro best at %+.0f ms (correlation %.2f; at 0 ms %.2f)",
                  1e3 * ToSeconds(lag.lag), lag.correlation, lag.as_is);
   // What the event rate has in common with the gyro varies; only a clear peak that is clearly elsewhere
   // counts.

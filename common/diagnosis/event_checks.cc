@@ -52,7 +52,7 @@ Finding Order(const EventCensus& e) {
   const double share =
       static_cast<double>(e.backward()) / static_cast<double>(std::max<std::int64_t>(1, e.count()));
   const std::string figure =
-      FormatText("%lld events before the one in front of them", static_cast<long long>(e.backward()));
+      FormatText("%lld events out of order", static_cast<long long>(e.backward()));
   if (e.backward() == 0) return Good("event-order", figure);
   return {"event-order", share > 1e-3 ? Severity::kError : Severity::kWarning, figure,
           FormatText("Stamps of events go back %.2g %% of the time.", 100 * share),
@@ -177,7 +177,7 @@ Finding DeadPixels(const EventCensus& e) {
 Finding Noise(const EventCensus& e) {
   const double share =
       static_cast<double>(e.alone()) / static_cast<double>(std::max<std::int64_t>(1, e.count()));
-  const std::string figure = FormatText("%.0f %% of the events without company", 100 * share);
+  const std::string figure = FormatText("%.0f %% of the events isolated", 100 * share);
   if (share > 0.5) {
     return {"event-noise", share > 0.8 ? Severity::kError : Severity::kWarning, figure,
             "Most events have no other near them in space and time: noise, or hardly any motion.",

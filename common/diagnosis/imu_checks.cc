@@ -30,7 +30,7 @@ Finding Order(const std::vector<ImuSample>& samples) {
   std::size_t wrong = 0;
   for (std::size_t k = 1; k < samples.size(); ++k) wrong += samples[k].t <= samples[k - 1].t ? 1 : 0;
   const double share = static_cast<double>(wrong) / static_cast<double>(samples.size());
-  const std::string figure = FormatText("%zu stamps not after the one before", wrong);
+  const std::string figure = FormatText("%zu stamps out of order", wrong);
   if (wrong == 0) return Good("imu-order", figure);
   return {"imu-order", share > 0.02 ? Severity::kError : Severity::kWarning, figure,
           FormatText("%.1f %% of the IMU's stamps repeat or go back.", 100 * share),
@@ -117,7 +117,7 @@ Finding GyroUnit(const std::vector<ImuSample>& samples) {
   const double median = Median(norms);
   const GyroFit fit = FitGyroToGravity(samples);
   const std::string figure =
-      fit.pairs > 0 ? FormatText("%.2g rad/s (median); against gravity's turn of %.0f deg off by %.0f deg",
+      fit.pairs > 0 ? FormatText("%.2g rad/s (median); gravity turned by %.0f deg, gyro differs by %.0f deg",
                                  median, kDegrees * fit.without, kDegrees * fit.as_read)
                     : FormatText("%.2g rad/s (median)", median);
   // 8 rad/s, 460 deg/s, for half of the time: no hand and no robot with a camera.
@@ -196,7 +196,7 @@ Finding NoiseOf(const std::vector<ImuSample>& samples, const std::vector<double>
   const double gyro = Noise(samples, true) * root, accel = Noise(samples, false) * root;
   const double more = std::max(gyro / noise.gyro_density, accel / noise.accel_density);
   const std::string figure =
-      FormatText("at its quietest %.1f (gyro) and %.1f (accelerometer) times the rig file's noise",
+      FormatText("when calmest, %.1f (gyro) and %.1f (accelerometer) times the rig file's noise",
                  gyro / noise.gyro_density, accel / noise.accel_density);
   if (samples.size() > 200 && more > 20) {
     return {"imu-noise", Severity::kWarning, figure,

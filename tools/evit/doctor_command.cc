@@ -71,7 +71,7 @@ void Examine(DoctorOptions* o) {
 void AddDoctorCommand(CLI::App* app) {
   auto o = std::make_shared<DoctorOptions>();
   CLI::App* command = app->add_subcommand(
-      "doctor", "What is wrong with a recording, its rig file or its map, and how to fix it");
+      "doctor", "Find what is wrong with a recording, its rig file or its map, and how to fix it");
   command->add_option("--log", o->patient.log, "LCM log with EVENTS and IMU (evit import)")->required();
   command->add_option("--rig", o->patient.rig, "Rig file that it is to be tracked with")->required();
   command->add_option("--map", o->patient.map, "Semi-dense map: PCD, PLY or text");

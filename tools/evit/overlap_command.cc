@@ -30,7 +30,7 @@ void PrintOverlap(const OverlapOptionValues& o) {
 void AddOverlapCommand(CLI::App* app) {
   auto o = std::make_shared<OverlapOptionValues>();
   CLI::App* overlap = app->add_subcommand(
-      "overlap", "How map and events of a recording lie on each other at known poses: a row of a table");
+      "overlap", "How well map and events of a recording fit at known poses: one row of a table");
   overlap->add_option("--log", o->files.log, "LCM log with EVENTS (evit import)")->required();
   overlap->add_option("--map", o->files.map, "Semi-dense map: PCD, PLY or text, metres")->required();
   overlap->add_option("--rig", o->rig, "Rig file")->required();
