@@ -18,6 +18,39 @@ struct Draw {
   }
 };
 
+// The points that may be drawn, tile by tile.
+struct Draws {
+  std::vector<Draw> list;
+  std::vector<std::int32_t> begin;  // of each tile in it, and the end
+
+  std::size_t Count(std::size_t tile) const {
+    return static_cast<std::size_t>(begin[tile + 1] - begin[tile]);
+  }
+};
+
+// Those whose number lies within the bound of their tile (`tile`: of each point).
+Draws DrawPoints(const std::vector<ProjectedPoint>& points, const std::vector<std::int32_t>& tile,
+                 const std::vector<std::uint64_t>& bound, std::uint64_t seed) {
+  const std::uint64_t base = Mix(seed);
+  std::vector<std::uint64_t> numbers(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+    numbers[k] = Mix(base ^ static_cast<std::uint64_t>(points[k].id));
+  Draws draws;
+  draws.begin.assign(bound.size() + 1, 0);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    draws.begin[tile[k] + 1] += numbers[k] <= bound[tile[k]] ? 1 : 0;
+  std::partial_sum(draws.begin.begin(), draws.begin.end(), draws.begin.begin());
+  draws.list.resize(static_cast<std::size_t>(draws.begin.back()) + 1);  // room for one that does not count
+  std::vector<std::int32_t> at(draws.begin.begin(), draws.begin.end() - 1);
+  for (std::size_t k = 0; k < points.size(); ++k) {  // no branch: hard to predict
+    const bool drawn = numbers[k] <= bound[tile[k]];
+    const std::int32_t to = drawn ? at[tile[k]] : draws.begin.back();
+    draws.list[to] = {numbers[k], points[k].id, static_cast<std::int32_t>(k)};
+    at[tile[k]] += drawn ? 1 : 0;
+  }
+  return draws;
+}
+
 // The largest quota with which the tiles together stay within the budget.
 std::size_t Quota(const std::vector<std::int32_t>& counts, std::size_t budget) {
   const auto taken = [&](std::size_t quota) {
@@ -70,33 +103,25 @@ std::vector<std::int32_t> SpreadSubset(const std::vector<ProjectedPoint>& points
     const double share = (expected + 4 * std::sqrt(expected) + 4) / std::max(counts[t], 1);
     bound[t] = share >= 1 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(share * 0x1p64);
   }
-  const std::uint64_t base = Mix(seed);
-  std::vector<std::vector<Draw>> draws(counts.size());
-  const auto draw = [&](bool everything) {
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const std::uint64_t number = Mix(base ^ static_cast<std::uint64_t>(points[k].id));
-      if (number > bound[tile[k]] && !everything) continue;
-      draws[tile[k]].push_back({number, points[k].id, static_cast<std::int32_t>(k)});
-    }
-  };
-  draw(false);
+  Draws draws = DrawPoints(points, tile, bound, seed);
   for (std::size_t t = 0; t < counts.size(); ++t) {
-    if (draws[t].size() >= std::min<std::size_t>(counts[t], quota + 1)) continue;
-    for (auto& d : draws) d.clear();
-    draw(true);
+    if (draws.Count(t) >= std::min<std::size_t>(counts[t], quota + 1)) continue;
+    std::fill(bound.begin(), bound.end(), ~std::uint64_t{0});
+    draws = DrawPoints(points, tile, bound, seed);
     break;
   }
 
   std::vector<Draw> next;  // each rich tile's first point beyond the quota
   places.reserve(budget);
-  for (auto& d : draws) {
-    const auto stop = d.begin() + static_cast<std::ptrdiff_t>(std::min(quota, d.size()));
-    if (stop != d.end()) {
-      std::nth_element(d.begin(), stop, d.end());
+  for (std::size_t t = 0; t < counts.size(); ++t) {
+    const auto begin = draws.list.begin() + draws.begin[t], end = draws.list.begin() + draws.begin[t + 1];
+    const auto stop = begin + static_cast<std::ptrdiff_t>(std::min(quota, draws.Count(t)));
+    if (stop != end) {
+      std::nth_element(begin, stop, end);
       next.push_back(*stop);
     }
-    std::sort(d.begin(), stop);
-    for (auto k = d.begin(); k != stop; ++k) places.push_back(k->place);
+    std::sort(begin, stop);
+    for (auto k = begin; k != stop; ++k) places.push_back(k->place);
   }
   // Points that still fit: each from another of the tiles with more than the quota.
   std::sort(next.begin(), next.end());
