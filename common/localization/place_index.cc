@@ -14,7 +14,9 @@ namespace {
 
 using namespace panorama;  // NOLINT(google-build-using-namespace): this file is about nothing else
 
-constexpr std::size_t kBlock = 256;                   // places that a thread takes at a time
+constexpr std::size_t kBlock = 256;  // places that a thread takes at a time
+constexpr int kPatch = 4;            // bins: of the panorama, that are thinned together
+constexpr int kPatchEdges = 6;
 constexpr double kRoomHeight = 2, kBeyondRoom = 0.2;  // m
 constexpr float kBehind = 1.15F, kBehindM = 0.1F;     // farther by that much than what lies around it: hidden
 
@@ -83,6 +85,7 @@ class View {
           visible->push_back({static_cast<std::uint16_t>(row), static_cast<std::uint16_t>(column)});
       }
     }
+    FlattenCrowds(visible);
     const std::size_t all = visible->size();
     if (all <= most_) return;
     for (std::size_t k = 0; k < most_; ++k) (*visible)[k] = (*visible)[k * all / most_];
@@ -90,6 +93,21 @@ class View {
   }
 
  private:
+  // Of a crowd of edges so many, evenly chosen, as an emptier part of the view may have too: edges beside
+  // each other meet the same events together, and of two places the one that sees more would win by that.
+  static void FlattenCrowds(std::vector<PlaceIndex::Edge>* visible) {
+    constexpr int kAcross = kColumns / kPatch;
+    const auto patch_of = [](PlaceIndex::Edge e) {
+      return e.stacked_row % kRows / kPatch * kAcross + e.column / kPatch;
+    };
+    std::array<int, kRows / kPatch * kAcross> all{}, seen{};
+    for (const PlaceIndex::Edge& e : *visible) ++all[patch_of(e)];
+    const auto crowded = [&](PlaceIndex::Edge e) {
+      const int n = all[patch_of(e)], k = seen[patch_of(e)]++;
+      return n > kPatchEdges && (k + 1) * kPatchEdges / n == k * kPatchEdges / n;
+    };
+    visible->erase(std::remove_if(visible->begin(), visible->end(), crowded), visible->end());
+  }
   void FillDepths(const Eigen::Vector3f& at) {
     LookAt(edges_, at.data(), near2_, far2_, &seen_);
     nearest_.fill(std::numeric_limits<float>::infinity());

@@ -13,7 +13,7 @@
 namespace evit {
 namespace {
 
-constexpr std::uint64_t kVersion = 2;  // of the file, and of what an index holds: another one is made again
+constexpr std::uint64_t kVersion = 3;  // of the file, and of what an index holds: another one is made again
 constexpr char kMagic[8] = {'E', 'V', 'I', 'T', 'P', 'L', 'A', 'C'};
 
 // FNV-1a, eight bytes at a time: tells whether something has changed, no more.
