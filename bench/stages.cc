@@ -17,6 +17,11 @@ struct Stage {
   cv::Scalar color;
 };
 
+// How often a stage is gone through: once, but the map is asked only where the view has moved.
+double TimesPerKeyframe(const nlohmann::json& service, const std::string& timing, double keyframes) {
+  return timing == "query" ? service["counters"].value("MAP_QUERY.received", keyframes) / keyframes : 1;
+}
+
 std::vector<Stage> Stages(const nlohmann::json& report) {
   const double keyframes = report["keyframes"].get<double>();
   if (!(keyframes > 0)) throw std::runtime_error("the report holds no keyframe");
@@ -26,26 +31,29 @@ std::vector<Stage> Stages(const nlohmann::json& report) {
     const char *service, *rest;
     std::vector<std::pair<const char*, const char*>> timed;
     cv::Scalar color;
-  } kParts[] = {
-      {"log_replay", "log_replay: read the log, send", {}, {170, 170, 170}},
-      {"frame_builder",
-       "frame_builder: receive, decode, merge, send",
-       {
-           {"update", "frame_builder: surface of active events"},
-           {"render", "frame_builder: time surface"},
-       },
-       {200, 140, 40}},
-      {"map_server", "map_server: receive, send", {{"query", "map_server: visible points"}}, {60, 150, 60}},
-      {"window_optimizer",
-       "window_optimizer: receive, send",
-       {{"solve", "window_optimizer: sample, solve, quality"}},
-       {50, 80, 220}}};
+  } kParts[] = {{"log_replay", "log_replay: read the log, send", {}, {170, 170, 170}},
+                {"frame_builder",
+                 "frame_builder: receive, decode, merge, send",
+                 {
+                     {"update", "frame_builder: surface of active events"},
+                     {"render", "frame_builder: time surface"},
+                 },
+                 {200, 140, 40}},
+                {"map_server",
+                 "map_server: load, receive, send",
+                 {{"query", "map_server: visible points"}},
+                 {60, 150, 60}},
+                {"window_optimizer",
+                 "window_optimizer: receive, send",
+                 {{"solve", "window_optimizer: sample, solve, quality"}},
+                 {50, 80, 220}}};
   for (const auto& part : kParts) {
     for (const auto& service : report["services"]) {
       if (service["name"] != part.service) continue;
       double rest = 1e3 * service["cpu_s"].get<double>() / keyframes;
       for (const auto& [timing, name] : part.timed) {
-        const double ms = service["mean_ms"].value(timing, 0.0);
+        const double ms =
+            service["mean_ms"].value(timing, 0.0) * TimesPerKeyframe(service, timing, keyframes);
         stages.push_back({name, ms, part.color});
         rest -= ms;
       }
