@@ -15,7 +15,9 @@ namespace {
 using namespace panorama;  // NOLINT(google-build-using-namespace): this file is about nothing else
 
 constexpr std::size_t kBlock = 256;  // places that a thread takes at a time
-constexpr int kPatch = 4;            // bins: of the panorama, that are thinned together
+constexpr std::size_t kCells = std::size_t{kRows} * kColumns;
+constexpr int kPatch = 4;  // bins: of the panorama, that are thinned together
+constexpr std::size_t kPatches = kCells / (kPatch * kPatch);
 constexpr int kPatchEdges = 6;
 constexpr double kRoomHeight = 2, kBeyondRoom = 0.2;  // m
 constexpr float kBehind = 1.15F, kBehindM = 0.1F;     // farther by that much than what lies around it: hidden
@@ -70,7 +72,7 @@ class View {
   void From(const Eigen::Vector3f& at, std::vector<PlaceIndex::Edge>* visible) {
     FillDepths(at);
     FindHorizon();
-    std::array<std::uint8_t, kRows * kColumns> held{};
+    std::array<std::uint8_t, kCells> held{};
     for (std::size_t k = 0; k < edges_.at.size(); ++k) {
       const std::int32_t place = seen_.places[k];
       const bool visible_there =
@@ -100,7 +102,7 @@ class View {
     const auto patch_of = [](PlaceIndex::Edge e) {
       return e.stacked_row % kRows / kPatch * kAcross + e.column / kPatch;
     };
-    std::array<int, kRows / kPatch * kAcross> all{}, seen{};
+    std::array<int, kPatches> all{}, seen{};
     for (const PlaceIndex::Edge& e : *visible) ++all[patch_of(e)];
     const auto crowded = [&](PlaceIndex::Edge e) {
       const int n = all[patch_of(e)], k = seen[patch_of(e)]++;
@@ -145,7 +147,7 @@ class View {
   float near2_, far2_;
   std::size_t most_;
   Seen seen_;
-  std::array<float, kRows * kColumns> nearest_, horizon_;
+  std::array<float, kCells> nearest_, horizon_;
 };
 
 std::vector<Eigen::Vector3f> Grid(const std::vector<EdgePoint>& edges, const PlaceIndexOptions& options,
