@@ -9,10 +9,18 @@ namespace {
 
 using Kind = Misplacement::Kind;
 
-int Unknowns(Kind kind) { return kind == Kind::kRotation || kind == Kind::kShift ? 3 : 1; }
+constexpr std::size_t kFewest = 300;  // points in view of all views together: by fewer nothing is told
+
+int Unknowns(Kind kind) {
+  if (kind == Kind::kCentre) return 2;
+  return kind == Kind::kRotation || kind == Kind::kShift ? 3 : 1;
+}
 
 // Steps of derivatives, and of the starts.
-double Small(Kind kind) { return kind == Kind::kTime ? 1e-3 : (kind == Kind::kShift ? 1e-3 : 5e-4); }
+double Small(Kind kind) {
+  if (kind == Kind::kCentre) return 0.5;
+  return kind == Kind::kTime || kind == Kind::kShift ? 1e-3 : 5e-4;
+}
 double Large(Kind kind) {
   switch (kind) {
     case Kind::kTime:
@@ -20,6 +28,8 @@ double Large(Kind kind) {
       return 0.02;
     case Kind::kShift:
       return 0.03;
+    case Kind::kCentre:
+      return 6;
     default:
       return 0.04;
   }
@@ -53,6 +63,10 @@ Placed Place(const Rig& rig, const Trajectory& body, const MapView& view, Kind k
     case Kind::kFocal:
       placed.camera.fx *= 1 + value.x();
       placed.camera.fy *= 1 + value.x();
+      break;
+    case Kind::kCentre:
+      placed.camera.cx += value.x();
+      placed.camera.cy += value.y();
       break;
   }
   return placed;
@@ -92,7 +106,7 @@ class Fitter {
         score += 1 / (1 + offset.squaredNorm());
       }
     }
-    if (n == 0) return {};
+    if (n < kFewest) return {};
     return {static_cast<double>(on) / static_cast<double>(n), score / static_cast<double>(n)};
   }
 
@@ -183,7 +197,8 @@ std::vector<Misplacement> FindMisplacements(const Rig& rig, const Trajectory& bo
                                             const MisplacementOptions& options) {
   const Fitter fitter(rig, body, views, options);
   std::vector<Misplacement> found;
-  for (const Kind kind : {Kind::kTime, Kind::kRotation, Kind::kShift, Kind::kScale, Kind::kFocal})
+  for (const Kind kind :
+       {Kind::kTime, Kind::kRotation, Kind::kShift, Kind::kScale, Kind::kFocal, Kind::kCentre})
     found.push_back(fitter.Fit(kind));
   return found;
 }

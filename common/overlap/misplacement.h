@@ -15,11 +15,12 @@ struct Misplacement {
     kRotation,  // rad, a rotation vector in the camera frame: T_body_camera * Exp(value) would fit
     kShift,     // m, map frame: to add to the poses' positions
     kScale,     // x: 1 + x times the poses' positions
-    kFocal      // x: 1 + x times the focal lengths
+    kFocal,     // x: 1 + x times the focal lengths
+    kCentre     // x, y, pixels: to add to the principal point
   };
   Kind kind = Kind::kTime;
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
-  double point_share = 0;  // of the points that then lie on events
+  double point_share = 0;  // of the points that then lie on events; 0: too few are in view to tell
 };
 
 struct MisplacementOptions {

@@ -16,7 +16,7 @@ namespace {
 
 struct MapBuildOptions {
   mapping::MapMaking making;
-  std::string out, adjusted, seconds;
+  std::string out, adjusted, seconds, poses_of, T_map_world;
   bool keep_poses = false;
 };
 
@@ -44,9 +44,17 @@ void AddSources(CLI::App* command, MapBuildOptions* o) {
   rgbd->excludes(events);
   command->add_option(
       "--poses", m.poses,
-      "TUM file in the map frame (z up). With --images: of the camera, one row for each picture in the order "
-      "of "
-      "names, or at any time where pictures have stamps. With --events: of the body (LOG.truth.tum)");
+      "TUM file, with --images one row for each picture in the order of names, or at any time where pictures "
+      "have stamps");
+  command
+      ->add_option("--poses-of", o->poses_of,
+                   "What the poses are of (default: camera with --images, body with --events, as "
+                   "LOG.truth.tum); body or marker need T_body_camera, and T_marker_body, in the file of "
+                   "--camera")
+      ->check(CLI::IsMember({"camera", "body", "marker"}));
+  command->add_option("--T-map-world", o->T_map_world,
+                      "16 numbers, row-major 4x4: brings poses into the map frame (z up); as for import "
+                      "(default: they are in it)");
   command
       ->add_option(
           "--camera", m.camera,
@@ -79,7 +87,7 @@ void AddMapBuild(CLI::App* map) {
       command
           ->add_option("--contrast", o->making.reader.edges.sure_contrast,
                        "Step of log intensity that an edge has somewhere; half of it will do along the edge; "
-                       "with --rgbd 0.25 by default")
+                       "less is taken where pictures show few; with --rgbd 0.25 by default")
           ->check(CLI::Range(0.05, 2.0));
   command->add_option("--min-depth", o->making.build.stereo.min_depth_m, "Nearest edge, m")
       ->check(CLI::PositiveNumber);
@@ -106,6 +114,11 @@ void AddMapBuild(CLI::App* map) {
     if (!(m.build.stereo.min_depth_m < m.build.stereo.max_depth_m))
       throw std::runtime_error("--min-depth is not below --max-depth");
     if (!o->seconds.empty()) m.seconds = ParseSeconds(o->seconds);
+    if (o->poses_of == "camera") m.poses_of = mapping::PosedFrame::kCamera;
+    if (o->poses_of == "body") m.poses_of = mapping::PosedFrame::kBody;
+    if (o->poses_of == "marker") m.poses_of = mapping::PosedFrame::kMarker;
+    if (!o->T_map_world.empty()) m.T_map_world = ParseTransform("--T-map-world", o->T_map_world);
+    m.reader.find_contrast = contrast->count() == 0;
     m.reader.threads = m.event_reader.threads = m.build.threads;
     m.event_reader.slices.most = m.reader.max_frames;
     m.reader.edges.min_contrast = m.reader.edges.sure_contrast / 2;

@@ -199,6 +199,45 @@ TEST_F(MapOfEventsTest, RefusesAnotherClockACameraAtRestAndWhatIsMissing) {
   EXPECT_FALSE(fs::exists(File("events.pcd")));
 }
 
+TEST_F(MapBuildTest, PosesOfAMarkerInAWorldOfItsOwnBecomeTheCameras) {
+  MountedCamera mounted;
+  mounted.camera = LoadCamera(File("camera.textproto"));
+  mounted.T_body_camera = SE3(ExpSO3({1.1, -0.4, 0.3}), {0.1, -0.05, 0.02});
+  mounted.T_marker_body = SE3(ExpSO3({-0.2, 0.5, 1.3}), {0.02, 0.03, -0.04});
+  mounted.time_offset = 8'000;
+  WriteMountedCamera(File("mounted.textproto"), mounted, "");
+  const SE3 T_map_world(ExpSO3({M_PI / 2, 0, 0}), {1, 2, 3});
+  fs::create_directories(File("by_stamp"));
+  Trajectory marker;
+  for (const StampedPose& camera : ReadTum(File("poses.tum"))) {
+    char name[60];
+    std::snprintf(name, sizeof name, "by_stamp/%lld.%06lld.png", static_cast<long long>(camera.t / 1'000'000),
+                  static_cast<long long>(camera.t % 1'000'000));
+    char numbered[40];
+    std::snprintf(numbered, sizeof numbered, "pictures/%02zu.png", marker.size());
+    fs::copy_file(File(numbered), File(name));
+    marker.push_back(
+        {camera.t + mounted.time_offset,
+         T_map_world.Inverse() * camera.pose * (mounted.T_marker_body * mounted.T_body_camera).Inverse()});
+  }
+  WriteTum(File("marker.tum"), marker);
+  const std::string arguments = "build --images " + File("by_stamp") + " --poses " + File("marker.tum") +
+                                " --poses-of marker --T-map-world '1 0 0 1 0 0 -1 2 0 1 0 3 0 0 0 1' --out " +
+                                File("marker.pcd") + " --camera ";
+  const Outcome outcome = Map(arguments + File("mounted.textproto"));
+  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  std::vector<double> errors;
+  for (const Eigen::Vector3f& p : LoadMap(File("marker.pcd")).map.points)
+    errors.push_back(PaintedScene::Wall().DistanceToEdge(p.cast<double>()));
+  ASSERT_GT(errors.size(), 500U);
+  std::sort(errors.begin(), errors.end());
+  EXPECT_LT(errors[errors.size() / 2], 0.005);
+
+  const Outcome unmounted = Map(arguments + File("camera.textproto"));
+  EXPECT_NE(unmounted.code, 0);
+  EXPECT_THAT(unmounted.output, HasSubstr("T_body_camera"));
+}
+
 TEST_F(MapBuildTest, RefusesWhatMakesNoMapAndLeavesNothingBehind) {
   fs::remove(File("map.pcd"));
   fs::create_directories(File("capped"));

@@ -16,11 +16,13 @@ namespace {
 nlohmann::json CheckJson(const mapping::MapCheck& check) {
   const MapEventOverlap& o = check.overlap;
   nlohmann::json fits = nlohmann::json::object();
-  static constexpr const char* kNames[] = {"time_s", "rotation_rad", "shift_m", "scale", "focal"};
+  static constexpr const char* kNames[] = {"time_s", "rotation_rad", "shift_m",
+                                           "scale",  "focal",        "centre_px"};
   for (const Misplacement& fit : check.fits) {
     nlohmann::json value = fit.value.x();
     if (fit.kind == Misplacement::Kind::kRotation || fit.kind == Misplacement::Kind::kShift)
       value = {fit.value.x(), fit.value.y(), fit.value.z()};
+    if (fit.kind == Misplacement::Kind::kCentre) value = {fit.value.x(), fit.value.y()};
     fits[kNames[static_cast<int>(fit.kind)]] = {{"value", value}, {"points_on_events", fit.point_share}};
   }
   nlohmann::json views = nlohmann::json::array();

@@ -36,6 +36,8 @@ std::string Remedy(const MapCheckInputs& inputs, const Misplacement& fit) {
                   1 / (1 + v.x()));
     case Kind::kFocal:
       return "fx and fy of " + inputs.rig + " are another camera's, or another image size's";
+    case Kind::kCentre:
+      return "cx and cy of " + inputs.rig + " are another camera's, or another image size's";
   }
   return "";
 }
@@ -56,6 +58,8 @@ std::string Describe(const Misplacement& fit) {
       return Text("poses %.1f %% too %s for the map", 100 * std::abs(v.x()), v.x() > 0 ? "small" : "large");
     case Kind::kFocal:
       return Text("focal length %.1f %% too %s", 100 * std::abs(v.x()), v.x() > 0 ? "short" : "long");
+    case Kind::kCentre:
+      return Text("principal point off by %.1f, %.1f px", -v.x(), -v.y());
   }
   return "";
 }
@@ -69,6 +73,8 @@ bool IsWorthAWord(const Misplacement& fit, double share_as_is) {
       return fit.value.norm() * kDeg > 0.2;
     case Kind::kShift:
       return fit.value.norm() > 0.008;
+    case Kind::kCentre:
+      return fit.value.norm() > 1.5;
     default:
       return std::abs(fit.value.x()) > 0.01;
   }
@@ -80,7 +86,8 @@ std::vector<std::string> Findings(const MapCheckInputs& inputs, const MapCheck& 
   std::stable_sort(fits.begin(), fits.end(), [](const Misplacement& a, const Misplacement& b) {
     return a.point_share > b.point_share;
   });
-  const bool misplaced = !fits.empty() && IsWorthAWord(fits.front(), check.point_share);
+  const bool unrelated = check.overlap.kappa() < 0.1 && (fits.empty() || fits.front().point_share < 0.4);
+  const bool misplaced = !unrelated && !fits.empty() && IsWorthAWord(fits.front(), check.point_share);
   if (misplaced) {
     const Misplacement& best = fits.front();
     std::string text = Describe(best) +
@@ -94,7 +101,7 @@ std::vector<std::string> Findings(const MapCheckInputs& inputs, const MapCheck& 
     }
     findings.push_back(text);
   }
-  if (check.overlap.kappa() < 0.1 && (fits.empty() || fits.front().point_share < 0.3)) {
+  if (unrelated) {
     findings.push_back(Text("map and events have hardly anything to do with each other (%.0f %% of the "
                             "points on events, %.0f %% by "
                             "chance): another scene, another frame (are the poses the body's, not a "
@@ -111,7 +118,7 @@ std::vector<std::string> Findings(const MapCheckInputs& inputs, const MapCheck& 
              check.tilt_deg));
   }
   const double missed = 1 - check.overlap.event_share();
-  if (!misplaced && missed > 0.5) {
+  if (!misplaced && !unrelated && missed > 0.5) {
     findings.push_back(
         Text("%.0f %% of the pixels that fire are not on the map: it has holes, or things move; more "
              "pictures or a "

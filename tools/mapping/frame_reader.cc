@@ -13,6 +13,8 @@ namespace evit::mapping {
 namespace {
 
 constexpr std::size_t kLeastEdges = 200;  // of a frame that shows something
+constexpr int kSamples = 9;               // pictures that the contrast of edges is found from
+constexpr double kLeastContrast = 0.12;   // of edges: below it, noise looks like them
 
 cv::Mat ReadGrey(const std::string& path, const Camera& camera) {
   cv::Mat image = cv::imread(path, cv::IMREAD_ANYDEPTH | cv::IMREAD_GRAYSCALE);
@@ -28,6 +30,31 @@ cv::Mat ReadGrey(const std::string& path, const Camera& camera) {
   return image;
 }
 
+// Cameras compress contrast by their gamma, and rooms differ: as low as it takes for a middling picture to
+// show edges as long as twice around it.
+double FindContrast(const FrameList& list, const Camera& camera, const Rectifier& rectifier,
+                    const FrameReaderOptions& options) {
+  const int n = std::min(kSamples, static_cast<int>(list.frames.size()));
+  std::vector<cv::Mat> images(n);
+  ParallelFor(n, options.threads, [&](int k) {
+    const std::size_t at =
+        (2 * static_cast<std::size_t>(k) + 1) * list.frames.size() / (2 * static_cast<std::size_t>(n));
+    images[k] = rectifier.Rectify(ReadGrey(list.frames[at].path, camera));
+  });
+  const auto enough = static_cast<std::size_t>(4 * (camera.width + camera.height));
+  double contrast = options.edges.sure_contrast;
+  for (; contrast > kLeastContrast; contrast = std::max(kLeastContrast, 0.7 * contrast)) {
+    EdgeDetectorOptions detector = options.edges;
+    detector.sure_contrast = contrast, detector.min_contrast = contrast / 2;
+    std::vector<std::size_t> counts(n);
+    ParallelFor(n, options.threads,
+                [&](int k) { counts[k] = DetectEdges(images[k], rectifier.valid(), detector).size(); });
+    std::sort(counts.begin(), counts.end());
+    if (n == 0 || counts[counts.size() / 2] >= enough) break;
+  }
+  return contrast;
+}
+
 }  // namespace
 
 ReadFrames ReadEdges(const FrameList& list, const Camera& camera, const FrameReaderOptions& options,
@@ -36,12 +63,17 @@ ReadFrames ReadEdges(const FrameList& list, const Camera& camera, const FrameRea
   const std::size_t stride =
       std::max<std::size_t>(1, (list.frames.size() + options.max_frames - 1) / options.max_frames);
   const int n = static_cast<int>((list.frames.size() + stride - 1) / stride);
+  EdgeDetectorOptions detector = options.edges;
+  if (options.find_contrast) {
+    detector.sure_contrast = FindContrast(list, camera, rectifier, options);
+    detector.min_contrast = detector.sure_contrast / 2;
+  }
   std::vector<std::vector<EdgePixel>> edges(n);
   std::mutex mutex;  // of progress
   int done = 0;
   ParallelFor(n, options.threads, [&](int k) {
     const cv::Mat image = rectifier.Rectify(ReadGrey(list.frames[k * stride].path, camera));
-    edges[k] = DetectEdges(image, rectifier.valid(), options.edges);
+    edges[k] = DetectEdges(image, rectifier.valid(), detector);
     const std::lock_guard<std::mutex> lock(mutex);
     progress(++done / static_cast<double>(n));
   });
@@ -56,6 +88,7 @@ ReadFrames ReadEdges(const FrameList& list, const Camera& camera, const FrameRea
                                                            static_cast<double>(counts[counts.size() / 2])));
   ReadFrames result;
   result.read = static_cast<std::size_t>(n);
+  result.contrast = detector.sure_contrast;
   for (int k = 0; k < n; ++k) {
     if (edges[k].size() < least) {
       ++result.poor;

@@ -23,19 +23,39 @@ MadeMap Build(ReadFrames frames, const MapBuilderOptions& options) {
           std::move(frames.stamps)};
 }
 
+// T_map_camera, by the stamps of the pictures.
+Trajectory CameraPoses(const MapMaking& m, const MountedCamera& camera) {
+  const PosedFrame of = m.poses_of.value_or(PosedFrame::kCamera);
+  if (of != PosedFrame::kCamera && !camera.mounted) {
+    throw std::runtime_error(m.camera +
+                             ": T_body_camera is missing: where the camera sits on what the poses of " +
+                             m.poses + " tell of");
+  }
+  SE3 T_posed_camera;
+  if (of != PosedFrame::kCamera) T_posed_camera = camera.T_body_camera;
+  if (of == PosedFrame::kMarker) T_posed_camera = camera.T_marker_body * camera.T_body_camera;
+  Trajectory poses = ReadTum(m.poses);
+  for (StampedPose& pose : poses) {
+    pose.pose = m.T_map_world * pose.pose * T_posed_camera;
+    pose.t -= camera.time_offset;
+  }
+  return poses;
+}
+
 MadeMap MakeFromImages(const MapMaking& m) {
   if (m.poses.empty() || m.camera.empty()) throw std::runtime_error("--images needs --poses and --camera");
-  const Trajectory poses = ReadTum(m.poses);
-  const Camera camera = LoadCamera(m.camera);
-  FrameList list = ListFrames(m.images, poses, m.poses);
+  const MountedCamera camera = LoadMountedCamera(m.camera);
+  FrameList list = ListFrames(m.images, CameraPoses(m, camera), m.poses);
   if (!m.frames.empty()) TakeRange(m.frames, &list);
   ReadFrames frames;
   {
     terminal::ProgressBar bar("reading " + std::to_string(list.frames.size()) + " pictures");
     bar.Show(0);
-    frames = ReadEdges(list, camera, m.reader, [&](double share) { bar.Show(share); });
+    frames = ReadEdges(list, camera.camera, m.reader, [&](double share) { bar.Show(share); });
   }
   Note(list, frames);
+  if (frames.contrast < m.reader.edges.sure_contrast)
+    std::fprintf(stderr, "note: few edges are strong: --contrast %.2f was taken\n", frames.contrast);
   return Build(std::move(frames), m.build);
 }
 
@@ -70,8 +90,13 @@ Trajectory PartOf(const Trajectory& all, const std::optional<std::pair<double, d
 
 MadeMap MakeFromEvents(const MapMaking& m) {
   if (m.poses.empty() || m.rig.empty()) throw std::runtime_error("--events needs --poses and --rig");
-  const Trajectory body = PartOf(ReadTum(m.poses), m.seconds, m.poses);
   const Rig rig = LoadRig(m.rig);
+  const PosedFrame of = m.poses_of.value_or(PosedFrame::kBody);
+  SE3 T_posed_body;
+  if (of == PosedFrame::kMarker) T_posed_body = rig.T_marker_body;
+  if (of == PosedFrame::kCamera) T_posed_body = rig.T_body_camera.Inverse();
+  Trajectory body = PartOf(ReadTum(m.poses), m.seconds, m.poses);
+  for (StampedPose& pose : body) pose.pose = m.T_map_world * pose.pose * T_posed_body;
   MapBuilderOptions options = OptionsForEvents(m.build);
   // How far things are says how events of a moment belong together; first by a guess, then as it was found.
   double depth = options.typical_depth_m > 0 ? options.typical_depth_m : kFirstDepth;

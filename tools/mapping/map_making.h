@@ -10,12 +10,17 @@
 
 namespace evit::mapping {
 
+/// What poses tell of.
+enum class PosedFrame { kCamera, kBody, kMarker };
+
 /// What a map is made from, one of three, and how.
 struct MapMaking {
-  std::string images;  // folder of pictures: needs poses (of the camera) and camera
+  std::string images;  // folder of pictures: needs poses and camera
   std::string rgbd;    // folder of RGB-D images with all they need
-  std::string events;  // LCM log: needs poses (of the body) and rig
+  std::string events;  // LCM log: needs poses and rig
   std::string poses, camera, rig;
+  std::optional<PosedFrame> poses_of;                   // nothing: the camera with images, the body with events
+  SE3 T_map_world;                                   // poses are in the world's frame
   std::string frames;                                // "A:B" of pictures, empty: all
   std::optional<std::pair<double, double>> seconds;  // of events, from the first pose; nothing: all
   FrameReaderOptions reader;

@@ -119,6 +119,21 @@ TEST_F(PlanTest, PrefersRecordedSequences) {
   EXPECT_THAT(desk->job.key, HasSubstr("desk_normal1.synced.left_event.hdf5 1 bytes"));
 }
 
+TEST_F(PlanTest, MakesTheMapThatASequenceLacksOfItsPictures) {
+  WriteRecorded("desk_normal");
+  std::filesystem::create_directories(folder_ / "vector/desk_normal1.synced.left_camera");
+  options_.vector = folder_ / "vector";
+  const auto jobs = JobsOf(MakePlan(options_));
+  const auto import =
+      std::find_if(jobs.begin(), jobs.end(), [](const PaperJob& j) { return j.id[0] == 'i'; });
+  ASSERT_NE(import, jobs.end());
+  const auto commands = import->prepare();
+  ASSERT_EQ(commands.size(), 2U);
+  EXPECT_THAT(commands[1], ::testing::IsSupersetOf({std::string("build"), std::string("marker")}));
+  const auto camera = std::find(commands[1].begin(), commands[1].end(), "--camera");
+  EXPECT_TRUE(std::filesystem::exists(*(camera + 1))) << *(camera + 1);
+}
+
 TEST_F(PlanTest, FindsBags) {
   for (const char* end : {"left_event", "imu", "gt"})
     folder_.Write("vector/robot_fast1.synced." + std::string(end) + ".bag", "x");

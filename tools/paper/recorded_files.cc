@@ -20,9 +20,22 @@ std::string FindMap(const std::string& folder, const paper::Sequence& sequence) 
     const std::string path = (fs::path(folder) / (sequence.scene() + end)).string();
     if (fs::exists(path)) return path;
   }
-  throw std::runtime_error(folder + ": holds " + sequence.name() +
-                           " but no map of its scene: " + sequence.scene() +
-                           ".pcd, .ply or .txt is expected (z up, metres), or `map` in the configuration");
+  return "";
+}
+
+// What a map can be made of: pictures beside the events, with the marker body's poses.
+void RequirePictures(const std::string& folder, const paper::Sequence& sequence, RecordedFiles* files) {
+  const std::string base = files->folder + "/" + sequence.name() + "1.synced.";
+  for (const std::string& path : {base + "left_camera", files->folder + "/left_camera"}) {
+    if (!files->folder.empty() && fs::is_directory(path)) files->pictures = path;
+  }
+  files->truth = base + "gt.txt";
+  if (!files->pictures.empty()) return;
+  throw std::runtime_error(
+      folder + ": holds " + sequence.name() + " but no map of its scene: " + sequence.scene() +
+      ".pcd, .ply or .txt is expected (z up, metres), or `map` in the configuration, or the "
+      "left regular camera's pictures to make one of, in " +
+      base + "left_camera/");
 }
 
 std::string FindPhotometricMap(const std::string& folder, const paper::Sequence& sequence) {
@@ -80,6 +93,7 @@ std::optional<RecordedFiles> FindRecorded(const std::string& folder, const paper
   }
   if (files.folder.empty() && files.bags.empty()) return {};
   files.map = FindMap(folder, sequence);
+  if (files.map.empty()) RequirePictures(folder, sequence, &files);
   files.photometric_map = FindPhotometricMap(folder, sequence);
   return files;
 }

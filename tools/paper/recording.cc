@@ -24,6 +24,11 @@ std::string Joined(const std::vector<std::string>& words) {
   return text;
 }
 
+// Calibration of the regular camera that maps are made with.
+std::string LeftCamera(const paper::Paper& config) {
+  return (fs::path(config.rig()).parent_path() / "left_camera.textproto").string();
+}
+
 // A large file as it is now: hashing it would take long.
 std::string Identity(const std::string& path) {
   const auto time = fs::last_write_time(path).time_since_epoch().count();
@@ -105,7 +110,7 @@ Recording Recorded(const paper::Paper& config, const paper::Sequence& sequence,
   r.source = "recorded";
   const std::string folder = options.work + "/recordings/" + r.name;
   r.log = folder + "/sequence.lcmlog";
-  r.map = files.map;
+  r.map = files.map.empty() ? folder + "/map.pcd" : files.map;
   r.photometric_map = files.photometric_map;
   r.truth = r.log + ".truth.tum";
   r.rig = config.rig();
@@ -127,19 +132,32 @@ Recording Recorded(const paper::Paper& config, const paper::Sequence& sequence,
     words.insert(words.end(), {"--seconds", Text(sequence.begin_s()) + ":" + Text(sequence.end_s())});
     r.source += ", " + Text(sequence.begin_s()) + " to " + Text(sequence.end_s()) + " s";
   }
+  std::vector<std::string> build{
+      "evit",       "map",    "build",    "--images",         files.pictures, "--poses", files.truth,
+      "--poses-of", "marker", "--camera", LeftCamera(config), "--out",        r.map};
   if (sequence.t_map_world_size() == 16) {
     std::string matrix;
     for (const double v : sequence.t_map_world()) matrix += (matrix.empty() ? "" : " ") + Text(v);
     words.insert(words.end(), {"--T-map-world", matrix});
+    build.insert(build.end(), {"--T-map-world", matrix});
   }
   r.job.id = "import " + r.name;
   r.job.folder = folder;
-  inputs += "map " + Identity(files.map);
+  if (files.map.empty()) {
+    inputs += "pictures " + files.pictures + "\ncamera " + HexText(HashOfFile(LeftCamera(config))) +
+              "\nmap " + Joined(build) + "\n";
+    r.source += ", map made of its pictures";
+  } else {
+    inputs += "map " + Identity(files.map);
+  }
   if (!files.photometric_map.empty()) inputs += "photometric map " + Identity(files.photometric_map);
   r.job.key = Joined(words) + "\n" + inputs + "program " + RecordingProgramId() + "\n";
   r.job.cost = 1.5 * r.seconds;
   words.insert(words.end(), {"--out", r.log});
-  r.job.prepare = [words] { return PaperJob::Commands{words}; };
+  const bool has_map = !files.map.empty();
+  r.job.prepare = [words, build, has_map] {
+    return has_map ? PaperJob::Commands{words} : PaperJob::Commands{words, build};
+  };
   return r;
 }
 
