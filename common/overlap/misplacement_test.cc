@@ -111,11 +111,11 @@ TEST(FindMisplacements, FindsAWrongFocalLength) {
 TEST(FindMisplacements, FindsAWrongPrincipalPoint) {
   const Bench bench;
   Rig real = bench.rig;
-  real.camera.cx += 7, real.camera.cy -= 5;
+  real.camera.cx += 8;
   // Before a flat wall a shift looks much the same, so it need not be the best. (Lines are 20 pixels apart.)
   const auto found = FindMisplacements(bench.rig, bench.body, bench.Views(real, 0, Eigen::Vector3d::Zero()));
   ASSERT_EQ(found.back().kind, Misplacement::Kind::kCentre);
-  EXPECT_LT((found.back().value - Eigen::Vector3d(7, -5, 0)).norm(), 1);
+  EXPECT_LT((found.back().value - Eigen::Vector3d(8, 0, 0)).norm(), 1);
   EXPECT_GT(found.back().point_share, 0.95);
 }
 
