@@ -17,7 +17,7 @@ using namespace panorama;  // NOLINT(google-build-using-namespace): this file is
 constexpr std::size_t kBlock = 256;  // places that a thread takes at a time
 constexpr std::size_t kCells = std::size_t{kRows} * kColumns;
 constexpr int kPatch = 4;  // bins: of the panorama, that are thinned together
-constexpr std::size_t kPatches = kCells / (kPatch * kPatch);
+constexpr std::size_t kPatches = kCells / kPatch / kPatch;
 constexpr int kPatchEdges = 6;
 constexpr double kRoomHeight = 2, kBeyondRoom = 0.2;  // m
 constexpr float kBehind = 1.15F, kBehindM = 0.1F;     // farther by that much than what lies around it: hidden
