@@ -40,7 +40,7 @@ void SlidingWindow::Push(WindowNode node) {
 // Most of the nodes hardly move from one solve to the next, and hardly any in its last iterations. Where a
 // pose changes the points' residuals by so little the quadratic function around the last one says the same.
 AlignmentTerm SlidingWindow::AlignNear(const SE3& T_map_body, WindowNode* node) const {
-  constexpr double kSame = 0.01;  // of a residual's standard deviation, root mean square over the points
+  constexpr double kSame = 3e-3;  // of a residual's standard deviation, root mean square over the points
   LocalAlignment& local = node->local;
   if (local.known) {
     Vector6d d;
