@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <utility>
 
 #include "common/overlap/map_event_overlap.h"
 #include "common/text/format_text.h"
@@ -10,6 +12,7 @@
 namespace evit::diagnosis {
 namespace {
 
+constexpr double kFits = 0.08;  // overlap, of 1: more is no chance
 constexpr double kPi = 3.14159265358979323846;
 
 // Everything that an assumption can change.
@@ -148,6 +151,26 @@ std::vector<Assumption> Assumptions(const Rig& rig) {
   return all;
 }
 
+// The unit in which the map lies on the events, where one does.
+std::optional<Finding> OtherUnit(const MapIndex& map, const World& world, const EventExcerpts& excerpts) {
+  const std::pair<double, const char*> units[] = {{0.01, "centimetres"},
+                                                  {0.001, "millimetres"},
+                                                  {0.3048, "feet"},
+                                                  {0.0254, "inches"},
+                                                  {1000, "kilometres"}};
+  for (const auto& [metres, name] : units) {
+    PointMap scaled = map.map();
+    for (Eigen::Vector3f& p : scaled.points) p *= static_cast<float>(metres);
+    const MapEventOverlap overlap = Measure(MapIndex(std::move(scaled)), world, excerpts);
+    if (overlap.views == 0 || overlap.kappa() < kFits) continue;
+    return Finding{"map-unit", Severity::kError,
+                   FormatText("overlap %.2f, of 1, where it is scaled", overlap.kappa()),
+                   FormatText("The map is in %s: scaled by %g it lies on the events.", name, metres),
+                   FormatText("convert it: `evit map import --scale %g`", metres)};
+  }
+  return {};
+}
+
 }  // namespace
 
 EventExcerpts::EventExcerpts(std::vector<Utime> instants, Utime reach)
@@ -194,11 +217,14 @@ Findings CheckOverlap(const MapIndex& map, const Rig& rig, const Trajectory& tru
   const std::string figure =
       FormatText("%.0f %% of the points have events within a pixel (by chance %.0f %%)",
                  100 * given.point_share(), 100 * given.point_share_by_chance());
-  if (better != nullptr && best > 0.08 && best > 1.3 * kappa + 0.03) {
+  if (better != nullptr && best > kFits && best > 1.3 * kappa + 0.03) {
     return {{"map-overlap", kappa < 0.5 * best ? Severity::kError : Severity::kWarning, figure,
              better->what +
                  FormatText(": then the map lies on the events (%.2f instead of %.2f, of 1).", best, kappa),
              better->remedy}};
+  }
+  if (given.views == 0 || kappa < 0.03) {
+    if (const std::optional<Finding> unit = OtherUnit(map, as_is, excerpts)) return {*unit};
   }
   if (given.views == 0) {
     return {{"map-overlap", Severity::kError, "no map points in view at the truth's poses",

@@ -120,7 +120,29 @@ Finding Span(const Trajectory& truth, const std::vector<ImuSample>& imu) {
   return Good("truth-span", figure);
 }
 
-Finding Rotation(const RateFit& fit) {
+// The mean of what the accelerometer reads, in the map, with its axes turned by R's inverse; zero where there
+// are too few poses.
+Eigen::Vector3d Up(const Trajectory& truth, const std::vector<ImuSample>& imu, Utime lag,
+                   const Eigen::Matrix3d& R = Eigen::Matrix3d::Identity()) {
+  const Integral force(imu, false);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int n = 0;
+  for (Utime t = truth.front().t + kHalf; t + kHalf <= truth.back().t; t += kStep) {
+    SE3 pose;
+    Eigen::Vector3d mean;
+    if (!PoseAt(truth, t, &pose) || !force.Mean(t + lag - kHalf, t + lag + kHalf, &mean)) continue;
+    sum += pose.q * (R.transpose() * mean), ++n;
+  }
+  return n < 20 ? Eigen::Vector3d::Zero() : sum.normalized();
+}
+
+// Whether gravity lies as it should with the accelerometer's axes as they are, but not with those that the
+// gyro would have: then the gyro alone is turned, not the body.
+bool OnlyGyroIsTurned(const Trajectory& truth, const std::vector<ImuSample>& imu, const RateFit& fit) {
+  return Up(truth, imu, fit.lag).z() > 0.99 && Up(truth, imu, fit.lag, fit.R).z() < 0.95;
+}
+
+Finding Rotation(const RateFit& fit, const Trajectory& truth, const std::vector<ImuSample>& imu) {
   const double angle = kDegrees * AngularDistance(Eigen::Quaterniond(fit.R), Eigen::Quaterniond::Identity());
   const std::string figure =
       FormatText("the gyro's rates fit the truth's to %.0f %%, at %+.0f ms, scale %.3g", 100 * fit.explained,
@@ -146,6 +168,11 @@ Finding Rotation(const RateFit& fit) {
     return {"imu-gyro-axes", Severity::kError, figure, "The gyro turns the other way round about some axis.",
             "give gyro and accelerometer in one right-handed body frame"};
   }
+  if (angle > 8 && OnlyGyroIsTurned(truth, imu, fit)) {
+    return {"imu-gyro-axes", Severity::kError, figure + FormatText(", turned by %.0f deg", angle),
+            FormatText("The gyro's axes are turned by %.0f deg against the accelerometer's.", angle),
+            "give gyro and accelerometer in one right-handed body frame"};
+  }
   if (angle > 8) {
     return {"truth-frame", Severity::kError, figure + FormatText(", turned by %.0f deg", angle),
             FormatText("The truth's body frame is turned by %.0f deg against the IMU's: it is a marker "
@@ -162,17 +189,8 @@ Finding Rotation(const RateFit& fit) {
 }
 
 Finding Gravity(const Trajectory& truth, const std::vector<ImuSample>& imu, const RateFit& fit) {
-  const Integral force(imu, false);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int n = 0;
-  for (Utime t = truth.front().t + kHalf; t + kHalf <= truth.back().t; t += kStep) {
-    SE3 pose;
-    Eigen::Vector3d mean;
-    if (!PoseAt(truth, t, &pose) || !force.Mean(t + fit.lag - kHalf, t + fit.lag + kHalf, &mean)) continue;
-    sum += pose.q * mean, ++n;
-  }
-  if (n < 20) return Good("gravity", "too few poses to tell");
-  const Eigen::Vector3d up = sum.normalized();
+  const Eigen::Vector3d up = Up(truth, imu, fit.lag);
+  if (up.isZero()) return Good("gravity", "too few poses to tell");
   const double tilt = kDegrees * std::acos(std::clamp(up.z(), -1.0, 1.0));
   const std::string figure = FormatText("the accelerometer's mean is %.1f deg off the map's z axis", tilt);
   if (tilt > 150) {
@@ -211,7 +229,7 @@ Findings CheckTruth(const Trajectory& truth, const std::vector<ImuSample>& imu) 
   Findings found{Span(truth, imu)};
   if (found.back().severity != Severity::kGood) return found;
   const RateFit fit = FitRates(truth, imu);
-  found.push_back(Rotation(fit));
+  found.push_back(Rotation(fit, truth, imu));
   // With the body turned or another's motion, what gravity seems to do says nothing.
   if (found.back().severity != Severity::kError) found.push_back(Gravity(truth, imu, fit));
   return found;

@@ -10,7 +10,7 @@
 namespace evit::doctor {
 namespace {
 
-// A channel by its name, or by its name behind the only prefix there is.
+// A channel by its name, or by its name behind the only prefix there is; empty where there is none.
 std::string FindChannel(const LogReader& log, const std::string& path, const std::string& name) {
   std::vector<std::string> found;
   std::string all;
@@ -21,34 +21,33 @@ std::string FindChannel(const LogReader& log, const std::string& path, const std
     if (ends && channel[channel.size() - name.size() - 1] == '/') found.push_back(channel);
     all += (all.empty() ? "" : ", ") + channel;
   }
-  if (found.size() == 1) return found.front();
-  throw std::runtime_error(path + (found.empty() ? " has no channel " : " has several channels ") + name +
-                           " (it has: " + all + "); make a log with `evit import`");
+  if (found.size() <= 1) return found.empty() ? "" : found.front();
+  throw std::runtime_error(path + " has several channels " + name + " (it has: " + all +
+                           "); make a log with `evit import`");
 }
 
 }  // namespace
 
 RecordedData::RecordedData(const std::string& path)
     : log_(path), events_(FindChannel(log_, path, "EVENTS")), imu_(FindChannel(log_, path, "IMU")) {
+  if (events_.empty() && imu_.empty())
+    throw std::runtime_error(path + " has neither events nor an IMU; make a log with `evit import`");
   event_packet_t first, last;
   std::vector<std::uint8_t> bytes;
-  bool any = false;
   EventArray events;
   const auto stamp = [&](const LogEntry& entry, bool at_begin) {
-    if (log_.channel(entry) != events_) return false;
+    if (events_.empty() || log_.channel(entry) != events_) return false;
     log_.Read(entry, &bytes);
     if (!DecodeChecked(bytes.data(), bytes.size(), &first)) return false;
     events.clear();
     AppendEvents(first, &events);
     if (events.size() == 0) return false;
     (at_begin ? begin_ : end_) = at_begin ? events.t.front() : events.t.back();
-    return any = true;
+    return true;
   };
   for (auto entry = log_.entries().begin(); entry != log_.entries().end() && !stamp(*entry, true);) ++entry;
   for (auto entry = log_.entries().rbegin(); entry != log_.entries().rend() && !stamp(*entry, false);)
     ++entry;
-  if (!any)
-    throw std::runtime_error(path + ": there is no event on " + events_ + "; import the recording again");
 }
 
 void RecordedData::Read(double seconds, const Sinks& sinks) {

@@ -15,10 +15,10 @@ namespace evit::doctor {
 /// well-formed are counted and left out.
 class RecordedData {
  public:
-  /// Throws std::runtime_error naming the file: unreadable, or no EVENTS and IMU in it.
+  /// Throws std::runtime_error naming the file: unreadable, or neither EVENTS nor IMU in it.
   explicit RecordedData(const std::string& path);
 
-  /// us, the events' clock, of the first and the last message of events.
+  /// us, the events' clock, of the first and the last message of events; 0 where there is none.
   Utime begin() const { return begin_; }
   Utime end() const { return end_; }
 
@@ -35,7 +35,7 @@ class RecordedData {
 
  private:
   LogReader log_;
-  std::string events_, imu_;
+  std::string events_, imu_;  // channels; empty: the log has none
   Utime begin_ = 0, end_ = 0;
   std::int64_t malformed_ = 0;
 };
