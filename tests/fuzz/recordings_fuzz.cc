@@ -8,6 +8,7 @@
 #include "tools/formats/aedat/aedat4_recording.h"
 #include "tools/formats/aedat/aedat_recording.h"
 #include "tools/formats/hdf5/ecf_chunk.h"
+#include "tools/formats/numpy/npy_recording.h"
 #include "tools/formats/prophesee/raw_recording.h"
 #include "tools/formats/ros/message_types.h"
 #include "tools/formats/ros/ros_recording.h"
@@ -94,6 +95,10 @@ void Read(int which, const std::uint8_t* data, std::size_t size) {
       return;
     case 9:
       return ReadEcf(data, size);
+    case 10: {
+      NpyRecording recording(file.path());
+      return ReadAll(&recording);
+    }
     default:
       ReadRecords(data, size);
   }
@@ -104,7 +109,7 @@ void Read(int which, const std::uint8_t* data, std::size_t size) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   try {
-    Read(data[0] % 10, data + 1, size - 1);
+    Read(data[0] % 11, data + 1, size - 1);
   } catch (const std::runtime_error&) {
   }
   return 0;

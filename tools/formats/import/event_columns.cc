@@ -82,19 +82,39 @@ bool Fits(const TableSample& sample, const std::array<Field, 4>& order) {
   return 3 * backward <= sample.rows.size();
 }
 
+// Takes a first row "width height" away.
+std::optional<std::pair<int, int>> TakeSize(TableSample* sample) {
+  double width = 0, height = 0;
+  if (sample->rows.size() < 2 || sample->rows.front().size() != 2) return {};
+  const bool numbers = ParseNumber(sample->rows[0][0], &width) && ParseNumber(sample->rows[0][1], &height);
+  if (!numbers || !(width >= 1 && height >= 1 && width <= 8192 && height <= 8192)) return {};
+  sample->rows.erase(sample->rows.begin());
+  return std::pair(static_cast<int>(width), static_cast<int>(height));
+}
+
 }  // namespace
 
-EventColumns FindEventColumns(const std::string& path) {
-  TableSample sample = SampleTable(path, kLayout);
+bool HoldsEvents(TableSample sample) {
+  TakeSize(&sample);
   EventColumns columns;
-  if (sample.rows.size() > 1 && sample.rows.front().size() == 2) {
-    double width = 0, height = 0;
-    const bool numbers = ParseNumber(sample.rows[0][0], &width) && ParseNumber(sample.rows[0][1], &height);
-    if (numbers && width >= 1 && height >= 1 && width <= 8192 && height <= 8192) {
-      columns.size = std::pair(static_cast<int>(width), static_cast<int>(height));
-      sample.rows.erase(sample.rows.begin());
-    }
-  }
+  if (sample.rows.empty()) return false;
+  if (ByHead(sample, &columns)) return true;
+  double value = 0;
+  const std::vector<std::string>& first = sample.rows.front();
+  return first.size() == 4 &&
+         std::all_of(
+             first.begin(), first.end(),
+             [&](const std::string& word) { return ParseNumber(word, &value) || IsPolarity(word); }) &&
+         ParseNumber(first[1], &value);
+}
+
+EventColumns FindEventColumns(const std::string& path) {
+  return FindEventColumns(SampleTable(path, kLayout));
+}
+
+EventColumns FindEventColumns(TableSample sample) {
+  EventColumns columns;
+  columns.size = TakeSize(&sample);
   // The reader itself says what is wrong with a row.
   sample.rows.erase(std::remove_if(sample.rows.begin(), sample.rows.end(),
                                    [&](const auto& row) { return row.size() != sample.rows.front().size(); }),

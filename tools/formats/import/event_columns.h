@@ -22,5 +22,11 @@ struct EventColumns {
 /// times do not go back. "t x y p" where nothing speaks against it. Throws std::runtime_error naming the file
 /// where the names or the number of columns are not those of events.
 EventColumns FindEventColumns(const std::string& path);
+/// The same of rows that were read already.
+EventColumns FindEventColumns(TableSample sample);
+
+/// Whether a table may be one of events: four columns of numbers (polarities may be words), below a line
+/// "width height" or not; or names of the columns that say so.
+bool HoldsEvents(TableSample sample);
 
 }  // namespace evit::formats

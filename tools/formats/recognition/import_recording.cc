@@ -16,7 +16,13 @@ namespace evit::formats {
 namespace {
 
 // The streams of another file: a table, HDF5, or a recording that has them.
-ImportStreams StreamsOf(const std::string& path, bool imu, const StreamChoice& choice) {
+ImportStreams StreamsOf(const std::string& given, bool imu, const StreamChoice& choice) {
+  // A folder as EuRoC lays them out.
+  std::string path = given;
+  for (const char* inside : {"data.csv", imu ? "imu0/data.csv" : "state_groundtruth_estimate0/data.csv"}) {
+    const std::filesystem::path file = std::filesystem::path(given) / inside;
+    if (std::filesystem::is_directory(given) && std::filesystem::is_regular_file(file)) path = file.string();
+  }
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file");
   ImportStreams streams;
   if (H5Recording::Recognises(path)) {

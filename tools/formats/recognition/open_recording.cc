@@ -9,7 +9,9 @@
 #include "tools/formats/aedat/aedat_recording.h"
 #include "tools/formats/bag/rosbag_store.h"
 #include "tools/formats/hdf5/h5_recording.h"
+#include "tools/formats/numpy/npy_recording.h"
 #include "tools/formats/prophesee/raw_recording.h"
+#include "tools/formats/recognition/other_contents.h"
 #include "tools/formats/ros/ros_recording.h"
 #include "tools/formats/ros2/bag_folder.h"
 #include "tools/formats/rpg/text_recording.h"
@@ -19,9 +21,8 @@ namespace {
 
 constexpr char kKnown[] =
     "known are Metavision RAW (EVT 2.0, 2.1, 3.0) and DAT, AEDAT 2.0, 3.1 and 4.0, bags of ROS 1 and of "
-    "ROS 2 (SQLite, MCAP), HDF5 of DSEC, TUM-VIE, M3ED, MVSEC, EDS and Prophesee, text (t x y p); evit "
-    "import vector and rpg "
-    "read folders of VECtor and RPG";
+    "ROS 2 (SQLite, MCAP), HDF5 of DSEC, TUM-VIE, M3ED, MVSEC, EDS and Prophesee, numpy arrays "
+    "(.npy), text (t x y p); evit import vector and rpg read folders of VECtor and RPG";
 
 std::unique_ptr<Recording> OpenFile(const std::string& path) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file");
@@ -31,6 +32,9 @@ std::unique_ptr<Recording> OpenFile(const std::string& path) {
   if (Aedat4Recording::Recognises(path)) return std::make_unique<Aedat4Recording>(path);
   if (AedatRecording::Recognises(path)) return std::make_unique<AedatRecording>(path);
   if (TextRecording::Recognises(path)) return std::make_unique<TextRecording>(path);
+  if (NpyRecording::Recognises(path)) return std::make_unique<NpyRecording>(path);
+  const std::string other = OtherContents(path);
+  if (!other.empty()) throw std::runtime_error(path + ": " + other);
   throw std::runtime_error(path + ": its contents are of no format that is recognised; " + kKnown);
 }
 
@@ -71,7 +75,8 @@ bool IsRecording(const std::string& path) {
   if (OpenRos2Bags({path})) return true;
   return std::filesystem::is_regular_file(path) &&
          (RosbagStore::Recognises(path) || H5Recording::Recognises(path) || RawRecording::Recognises(path) ||
-          Aedat4Recording::Recognises(path) || AedatRecording::Recognises(path));
+          Aedat4Recording::Recognises(path) || AedatRecording::Recognises(path) ||
+          NpyRecording::Recognises(path));
 }
 
 void MeasureSize(Recording* recording, int* width, int* height) {

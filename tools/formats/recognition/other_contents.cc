@@ -1,0 +1,97 @@
+#include "tools/formats/recognition/other_contents.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "common/files/table_reader.h"
+#include "common/files/table_sample.h"
+
+namespace evit::formats {
+namespace {
+
+constexpr std::size_t kLooked = 512;  // bytes
+
+struct Contents {
+  std::size_t at;
+  std::string_view begin;
+  const char* what;
+};
+
+using std::string_view_literals::operator""sv;
+
+constexpr char kCompressed[] = "is compressed; unpack it and import what comes out: ";
+constexpr char kPicture[] = "is a picture; EVIT needs events, which pictures do not have";
+constexpr char kVideo[] = "is a video; EVIT needs events, which frames do not have";
+
+constexpr Contents kPacked[] = {
+    {0, "\x1f\x8b"sv, "gunzip FILE"},   {0, "BZh"sv, "bunzip2 FILE"},          {0, "\xfd" "7zXZ"sv, "unxz FILE"},
+    {0, "\x28\xb5\x2f\xfd"sv, "unzstd FILE"}, {0, "\x04\x22\x4d\x18"sv, "unlz4 FILE"}, {0, "7z\xbc\xaf"sv, "7z x FILE"},
+    {0, "PK\x03\x04"sv, "unzip FILE"},  {0, "Rar!"sv, "unrar x FILE"},         {257, "ustar"sv, "tar xf FILE"},
+};
+
+constexpr Contents kOthers[] = {
+    {0, "\x89PNG"sv, kPicture},
+    {0, "\xff\xd8\xff"sv, kPicture},
+    {0, "GIF8"sv, kPicture},
+    {0, "II*\0"sv, kPicture},
+    {4, "ftyp"sv, kVideo},
+    {8, "AVI "sv, kVideo},
+    {0, "\x1a\x45\xdf\xa3"sv, kVideo},
+    {0, "%PDF"sv, "is a document (PDF)"},
+    {0, "version https://git-lfs"sv, "is a pointer of Git LFS, not the file itself; fetch it with `git lfs pull`"},
+    {0, "\xed\xa1\xda\x01"sv, "is an LCM log already: `evit run --log`"},
+    {0, "# .PCD"sv, "is a map; give it to `evit run --map`"},
+    {0, "VERSION .7"sv, "is a map; give it to `evit run --map`"},
+    {0, "ply\n"sv, "is a map; give it to `evit run --map`"},
+    {0, "MATLAB 5.0 MAT-file"sv,
+     "is MATLAB's; save it in version 7.3 (HDF5) or as text: writematrix([t x y p], 'events.txt', 'Delimiter', ' ')"},
+};
+
+bool Has(std::string_view text, const Contents& contents) {
+  return text.size() >= contents.at + contents.begin.size() &&
+         text.substr(contents.at, contents.begin.size()) == contents.begin;
+}
+
+std::string OfText(const std::string& path, std::string_view text) {
+  std::string begin(text.substr(0, 20));
+  begin.erase(0, std::min(begin.size(), begin.find_first_not_of(" \t\r\n")));
+  std::transform(begin.begin(), begin.end(), begin.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (begin.rfind("<!doctype", 0) == 0 || begin.rfind("<html", 0) == 0)
+    return "is a web page, not what it was to be a download of; download it again";
+  if (!begin.empty() && (begin[0] == '{' || begin[0] == '['))
+    return "is JSON; a calibration is given with --calibration";
+  try {
+    const TableSample sample = SampleTable(path, "t x y p", 20);
+    const std::size_t columns = sample.rows.empty() ? 0 : sample.rows.front().size();
+    double value = 0;
+    if (columns >= 7 && ParseNumber(sample.rows.front()[1], &value))
+      return "is a table of " + std::to_string(columns) +
+             " columns; an IMU's is given with --imu, one of poses with --truth, beside a file of events";
+  } catch (const std::runtime_error&) {  // no text
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string OtherContents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text(kLooked, '\0');
+  file.read(text.data(), kLooked);
+  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
+  if (text.empty()) return "is empty; copy or download it again";
+  // numpy.savez: the name of the first array is at byte 30.
+  if (Has(text, {0, "PK\x03\x04"sv, ""}) && text.find(".npy") < 100)
+    return "is an archive of numpy arrays; save one array instead: numpy.save(\"events.npy\", "
+           "numpy.rec.fromarrays([a[\"t\"], a[\"x\"], a[\"y\"], a[\"p\"]], names=\"t,x,y,p\"))";
+  for (const Contents& contents : kPacked)
+    if (Has(text, contents)) return kCompressed + std::string(contents.what);
+  for (const Contents& contents : kOthers)
+    if (Has(text, contents)) return contents.what;
+  return OfText(path, text);
+}
+
+}  // namespace evit::formats
