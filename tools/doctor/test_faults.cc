@@ -68,15 +68,17 @@ void SortEvents(EventArray* events) {
 
 }  // namespace
 
-Sample LoadSample(const std::string& log, const std::string& rig, const std::string& map, const std::string& truth,
-                  double seconds) {
+Sample LoadSample(const std::string& log, const std::string& rig, const std::string& map,
+                  const std::string& truth, double seconds) {
   Sample s;
   RecordedData data(log);
   data.Read(seconds, {[&s](const EventArray& part) {
                         for (std::size_t k = 0; k < part.size(); ++k)
                           s.events.push_back(part.t[k], part.x[k], part.y[k], part.p[k]);
                       },
-                      [&s](const std::vector<ImuSample>& part) { s.imu.insert(s.imu.end(), part.begin(), part.end()); },
+                      [&s](const std::vector<ImuSample>& part) {
+                        s.imu.insert(s.imu.end(), part.begin(), part.end());
+                      },
                       [](double) {}});
   s.truth = ReadTum(truth);
   s.map = LoadMap(map).map;
@@ -237,14 +239,12 @@ const std::vector<Fault>& Faults() {
        }},
       {"ImageUpsideDown", "map-overlap",
        [](Sample* s) {
-         for (std::uint16_t& x : s->events.x)
-           x = static_cast<std::uint16_t>(s->rig.camera.width - 1 - x);
+         for (std::uint16_t& x : s->events.x) x = static_cast<std::uint16_t>(s->rig.camera.width - 1 - x);
          for (std::uint16_t& y : s->events.y) y = static_cast<std::uint16_t>(s->rig.camera.height - 1 - y);
        }},
       {"ImageMirrored", "map-overlap",
        [](Sample* s) {
-         for (std::uint16_t& x : s->events.x)
-           x = static_cast<std::uint16_t>(s->rig.camera.width - 1 - x);
+         for (std::uint16_t& x : s->events.x) x = static_cast<std::uint16_t>(s->rig.camera.width - 1 - x);
        }},
       {"MapInMillimetres", "map-unit",
        [](Sample* s) {

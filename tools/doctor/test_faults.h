@@ -23,8 +23,8 @@ struct Sample {
 };
 
 /// Of four files; the first `seconds` of the log.
-Sample LoadSample(const std::string& log, const std::string& rig, const std::string& map, const std::string& truth,
-                  double seconds = 60);
+Sample LoadSample(const std::string& log, const std::string& rig, const std::string& map,
+                  const std::string& truth, double seconds = 60);
 
 /// What the doctor says of it.
 diagnosis::Findings ExamineSample(const Sample& sample);

@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdio>
 #include <map>
 #include <stdexcept>
@@ -59,6 +60,7 @@ void RunImport(const std::string& label, const formats::ImportTarget& target, co
                const std::function<formats::ImportSummary(const std::function<void(double)>&)>& work) {
   formats::ImportSummary s;
   const StopSignals signals;
+  std::signal(SIGPIPE, SIG_IGN);  // with `| head` the log is still written whole
   try {
     terminal::ProgressBar bar("importing " + label);
     s = work([&](double share) {

@@ -82,6 +82,50 @@ TEST_F(ImportCommandTest, ACalibrationBecomesARigFileAndTurnsTheTruthIntoTheImus
   EXPECT_DOUBLE_EQ(truth[0].pose.p.x(), 3.5);
 }
 
+TEST_F(ImportCommandTest, AReaderThatGoesAwayDoesNotSpoilTheLog) {
+  Import(M3edFile(folder_) + " --out " + log_ + " 2>&1 | true", 0);
+  EXPECT_TRUE(std::filesystem::exists(log_));
+  EXPECT_FALSE(std::filesystem::exists(log_ + ".part"));
+}
+
+TEST_F(ImportCommandTest, WhatIsNoRecordingIsNamedWithItsRemedy) {
+  const std::string text = "1600000000.0 0.1 0.1 0.1 0.1 0.2 9.8\n";
+  const std::pair<std::string, const char*> cases[] = {
+      {"", "is empty"},
+      {"\x1f\x8b\b", "gunzip"},
+      {std::string("PK\x03\x04") + std::string(26, '.') + "t.npy", "numpy.save"},
+      {std::string("PK\x03\x04") + std::string(26, '.') + "events.txt", "unzip"},
+      {"\x89PNG\r\n", "is a picture"},
+      {std::string(4, ' ') + "ftypisom", "is a video"},
+      {"<!DOCTYPE html>", "is a web page"},
+      {"version https://git-lfs.github.com/spec/v1", "git lfs pull"},
+      {"# .PCD v0.7\n", "is a map"},
+      {" {\"value0\": 1}", "--calibration"},
+      {text + text, "--imu"}};
+  for (const auto& [contents, remedy] : cases)
+    EXPECT_THAT(Import(folder_.Write("a.raw", contents) + " --out " + log_, 1), HasSubstr(remedy));
+}
+
+TEST_F(ImportCommandTest, TextsOfSeveralKindsAndEurocsFolders) {
+  std::string size = "346 260\n", index = ",timestamp,x,y,polarity\n", words = "timestamp,x,y,polarity\n";
+  std::string imu =
+      "#timestamp [ns],w_x [rad s^-1],w_y [rad s^-1],w_z [rad s^-1],a_x [m s^-2],a_y [m s^-2],a_z\n";
+  for (int k = 0; k < 50; ++k) {
+    const std::string t = std::to_string(1'600'000'000'000'000 + 1000 * k), x = std::to_string(3 * k);
+    size += "1600000000." + std::to_string(1'000'000 + 1000 * k).substr(1) + " " + x + " 7 1\n";
+    index += std::to_string(k) + "," + t + "," + x + ",7,1\n";
+    words += t + "," + x + ",7,True\n";
+    imu += t + "000,0.1,0.2,0.3,0.1,0.2,9.8\n";
+  }
+  std::filesystem::create_directories(folder_.File("mav0/imu0"));
+  folder_.Write("mav0/imu0/data.csv", imu);
+  for (const std::string& text : {size, index, words}) {
+    const std::string path = folder_.Write("events.txt", text);
+    EXPECT_THAT(Import(path + " --imu " + folder_.File("mav0") + " --out " + log_, 0), HasSubstr("50 events"))
+        << text.substr(0, 100);
+  }
+}
+
 TEST_F(ImportCommandTest, ACalibrationOfAnotherCameraLeavesNothingBehind) {
   const std::string path = M3edFile(folder_), rig_path = folder_.File("rig.textproto");
   EXPECT_THAT(

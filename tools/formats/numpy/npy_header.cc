@@ -25,7 +25,8 @@ NpyHeader::Field ParseType(const ByteFile& file, const std::string& name, const 
   std::smatch match;
   if (!std::regex_match(type, match, kType) || match[1] == ">" ||
       (match[2] == "f" && (match[3] == "1" || match[3] == "2")) || (match[2] == "b" && match[3] != "1"))
-    file.Fail("the array's type " + type + " is not read; save it as little-endian integers or floats: a.astype(...)");
+    file.Fail("the array's type " + type +
+              " is not read; save it as little-endian integers or floats: a.astype(...)");
   return {name, match[2].str()[0], std::stoi(match[3]), offset};
 }
 
@@ -89,7 +90,8 @@ NpyHeader ReadNpyHeader(ByteFile* file) {
     file->Fail("expected rows of numbers (N x 4), or a structured array with t, x, y and p");
   header.rows = shape[0];
   if (header.rows > (file->size() - file->position()) / header.row_bytes)
-    file->Fail("holds fewer rows than it says, or fields that are aligned: copy it again, or save a packed array");
+    file->Fail(
+        "holds fewer rows than it says, or fields that are aligned: copy it again, or save a packed array");
   return header;
 }
 

@@ -22,8 +22,8 @@ struct NpyHeader {
 
 bool IsNpy(const std::string& path);
 
-/// Reads it from the front of a file, up to the first row. Throws std::runtime_error naming the file: not little-endian,
-/// column-wise (Fortran), objects, more than two dimensions, or fewer bytes than rows.
+/// Reads it from the front of a file, up to the first row. Throws std::runtime_error naming the file: not
+/// little-endian, column-wise (Fortran), objects, more than two dimensions, or fewer bytes than rows.
 NpyHeader ReadNpyHeader(ByteFile* file);
 
 /// A number of a row.

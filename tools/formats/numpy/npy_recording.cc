@@ -37,7 +37,10 @@ double Micros(TimeUnit unit) {
 class NpyEvents : public EventSource {
  public:
   NpyEvents(const std::string& path, const EventColumns& columns, int width, int height)
-      : file_(path), header_(ReadNpyHeader(&file_)), left_(header_.rows), micros_(Micros(columns.unit)),
+      : file_(path),
+        header_(ReadNpyHeader(&file_)),
+        left_(header_.rows),
+        micros_(Micros(columns.unit)),
         filter_(width, height) {
     for (std::size_t k = 0; k < columns.n; ++k) {
       if (columns.field[k] != EventColumns::kIgnored) fields_[columns.field[k]] = header_.fields[k];
@@ -80,9 +83,11 @@ class NpyEvents : public EventSource {
       if (!(std::abs(value) < kLongest)) return filter_.CountInvalid();
       t = std::llround(value);
     }
-    const std::int64_t x = Whole(EventColumns::kX, "a column", row), y = Whole(EventColumns::kY, "a row", row);
+    const std::int64_t x = Whole(EventColumns::kX, "a column", row),
+                       y = Whole(EventColumns::kY, "a row", row);
     const std::uint8_t p = filter_.Polarity(Whole(EventColumns::kPolarity, "a polarity", row));
-    if (filter_.Keep(x, y)) events->push_back(t, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), p);
+    if (filter_.Keep(x, y))
+      events->push_back(t, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), p);
   }
 
   ByteFile file_;
@@ -111,8 +116,8 @@ NpyRecording::NpyRecording(const std::string& path) : path_(path) {
     std::string names;
     for (const NpyHeader::Field& field : header_.fields)
       names += (names.empty() ? "" : ", ") + (field.name.empty() ? "?" : field.name);
-    file.Fail("holds no events (t, x, y and p by name, or rows of these four), but " + std::to_string(header_.rows) +
-              " rows of: " + names);
+    file.Fail("holds no events (t, x, y and p by name, or rows of these four), but " +
+              std::to_string(header_.rows) + " rows of: " + names);
   }
   columns_ = FindEventColumns(sample);
 }

@@ -9,8 +9,8 @@
 
 namespace evit::formats {
 
-/// Events in a numpy array (.npy): structured with t, x, y and p by name, or rows of four numbers, whose order and
-/// unit of time the values tell as in text (FindEventColumns).
+/// Events in a numpy array (.npy): structured with t, x, y and p by name, or rows of four numbers, whose
+/// order and unit of time the values tell as in text (FindEventColumns).
 class NpyRecording : public Recording {
  public:
   static bool Recognises(const std::string& path) { return IsNpy(path); }

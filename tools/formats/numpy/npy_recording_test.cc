@@ -65,8 +65,8 @@ TEST(NpyRecording, StructuredArraysByTheNamesOfTheirFields) {
   ExpectEvents(folder.Write("a.npy", Npy("[('t', '<i8'), ('x', '<u2'), ('y', '<u2'), ('p', '|u1')]", "(20,)",
                                          Rows<std::uint16_t, std::uint8_t, std::int64_t>("txyp", 1))));
   ExpectEvents(
-      folder.Write("a.npy", Npy("[('x', '<i2'), ('y', '<i2'), ('polarity', '|b1'), ('timestamp', '<f8')]", "(20,)",
-                                Rows<std::int16_t, bool, double>("xypt", 1e-6))));
+      folder.Write("a.npy", Npy("[('x', '<i2'), ('y', '<i2'), ('polarity', '|b1'), ('timestamp', '<f8')]",
+                                "(20,)", Rows<std::int16_t, bool, double>("xypt", 1e-6))));
 }
 
 TEST(NpyRecording, RowsByTheirValues) {

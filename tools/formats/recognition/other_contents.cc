@@ -27,9 +27,18 @@ constexpr char kPicture[] = "is a picture; EVIT needs events, which pictures do 
 constexpr char kVideo[] = "is a video; EVIT needs events, which frames do not have";
 
 constexpr Contents kPacked[] = {
-    {0, "\x1f\x8b"sv, "gunzip FILE"},   {0, "BZh"sv, "bunzip2 FILE"},          {0, "\xfd" "7zXZ"sv, "unxz FILE"},
-    {0, "\x28\xb5\x2f\xfd"sv, "unzstd FILE"}, {0, "\x04\x22\x4d\x18"sv, "unlz4 FILE"}, {0, "7z\xbc\xaf"sv, "7z x FILE"},
-    {0, "PK\x03\x04"sv, "unzip FILE"},  {0, "Rar!"sv, "unrar x FILE"},         {257, "ustar"sv, "tar xf FILE"},
+    {0, "\x1f\x8b"sv, "gunzip FILE"},
+    {0, "BZh"sv, "bunzip2 FILE"},
+    {0,
+     "\xfd"
+     "7zXZ"sv,
+     "unxz FILE"},
+    {0, "\x28\xb5\x2f\xfd"sv, "unzstd FILE"},
+    {0, "\x04\x22\x4d\x18"sv, "unlz4 FILE"},
+    {0, "7z\xbc\xaf"sv, "7z x FILE"},
+    {0, "PK\x03\x04"sv, "unzip FILE"},
+    {0, "Rar!"sv, "unrar x FILE"},
+    {257, "ustar"sv, "tar xf FILE"},
 };
 
 constexpr Contents kOthers[] = {
@@ -41,13 +50,15 @@ constexpr Contents kOthers[] = {
     {8, "AVI "sv, kVideo},
     {0, "\x1a\x45\xdf\xa3"sv, kVideo},
     {0, "%PDF"sv, "is a document (PDF)"},
-    {0, "version https://git-lfs"sv, "is a pointer of Git LFS, not the file itself; fetch it with `git lfs pull`"},
+    {0, "version https://git-lfs"sv,
+     "is a pointer of Git LFS, not the file itself; fetch it with `git lfs pull`"},
     {0, "\xed\xa1\xda\x01"sv, "is an LCM log already: `evit run --log`"},
     {0, "# .PCD"sv, "is a map; give it to `evit run --map`"},
     {0, "VERSION .7"sv, "is a map; give it to `evit run --map`"},
     {0, "ply\n"sv, "is a map; give it to `evit run --map`"},
     {0, "MATLAB 5.0 MAT-file"sv,
-     "is MATLAB's; save it in version 7.3 (HDF5) or as text: writematrix([t x y p], 'events.txt', 'Delimiter', ' ')"},
+     "is MATLAB's; save it in version 7.3 (HDF5) or as text: writematrix([t x y p], 'events.txt', "
+     "'Delimiter', ' ')"},
 };
 
 bool Has(std::string_view text, const Contents& contents) {
