@@ -51,8 +51,7 @@ Finding Gaps(const EventCensus& e) {
 Finding Order(const EventCensus& e) {
   const double share =
       static_cast<double>(e.backward()) / static_cast<double>(std::max<std::int64_t>(1, e.count()));
-  const std::string figure =
-      FormatText("%lld events out of order", static_cast<long long>(e.backward()));
+  const std::string figure = FormatText("%lld events out of order", static_cast<long long>(e.backward()));
   if (e.backward() == 0) return Good("event-order", figure);
   return {"event-order", share > 1e-3 ? Severity::kError : Severity::kWarning, figure,
           FormatText("Stamps of events go back %.2g %% of the time.", 100 * share),

@@ -36,6 +36,7 @@ class LocatingTracker final : public MapTracker {
   void AddVisible(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& points) override {
     tracker_->AddVisible(ids, points);
   }
+  void ForgetPoints() override { tracker_->ForgetPoints(); }
   TrackerOutput Process(const KeyframeInput& keyframe) override;
   void set_point_share(double share) override { tracker_->set_point_share(share); }
   void set_solve_budget(double seconds) override { tracker_->set_solve_budget(seconds); }

@@ -4,10 +4,10 @@
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "common/files/content_hash.h"
 #include "common/files/whole_file.h"
 
 namespace evit {
@@ -15,35 +15,6 @@ namespace {
 
 constexpr std::uint64_t kVersion = 3;  // of the file, and of what an index holds: another one is made again
 constexpr char kMagic[8] = {'E', 'V', 'I', 'T', 'P', 'L', 'A', 'C'};
-
-// FNV-1a, eight bytes at a time: tells whether something has changed, no more.
-class Hash {
- public:
-  void Add(const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (; size >= 8; size -= 8, bytes += 8) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes, 8);
-      AddWord(word);
-    }
-    std::uint64_t rest = size;
-    for (std::size_t k = 0; k < size; ++k) rest = rest << 8 | bytes[k];
-    AddWord(rest);
-  }
-  template <typename Value>
-  void AddValue(Value value) {
-    static_assert(std::is_arithmetic_v<Value>);
-    Add(&value, sizeof value);
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  void AddWord(std::uint64_t word) {
-    value_ = (value_ ^ word) * 0x100000001b3U;
-    value_ ^= value_ >> 29;  // a product alone never brings high bits down
-  }
-  std::uint64_t value_ = 0xcbf29ce484222325U;
-};
 
 // As they lie in memory, which is without gaps.
 static_assert(sizeof(PlaceIndex::Edge) == 2 && sizeof(PlaceIndex::Place) == 20);
@@ -55,7 +26,7 @@ struct Header {
 };
 
 std::uint64_t ChecksumOf(const PlaceIndex& index) {
-  Hash hash;
+  ContentHash hash;
   hash.AddValue(index.spacing());
   hash.Add(index.places().data(), index.places().size() * sizeof(PlaceIndex::Place));
   hash.Add(index.edges(), index.n_edges() * sizeof(PlaceIndex::Edge));
@@ -72,7 +43,7 @@ bool ReadAll(std::ifstream* file, std::size_t count, std::vector<Item>* items) {
 }  // namespace
 
 std::uint64_t FingerprintOf(const PointMap& map, const PlaceIndexOptions& o) {
-  Hash hash;
+  ContentHash hash;
   hash.AddValue(kVersion);
   for (const int size : {panorama::kColumns, panorama::kRows, panorama::kDirections, o.min_visible})
     hash.AddValue(size);

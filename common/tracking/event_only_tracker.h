@@ -25,6 +25,7 @@ class EventOnlyTracker final : public MapTracker {
     return mode_ == TrackerMode::kTracking && points_.Suffice(answered, query);
   }
   void AddVisible(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& points) override;
+  void ForgetPoints() override { points_.Clear(); }
   TrackerOutput Process(const KeyframeInput& keyframe) override;
   void set_point_share(double share) override { points_.set_share(share); }
   void set_solve_budget(double) override {}  // a frame's solve is short

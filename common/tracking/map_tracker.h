@@ -35,14 +35,16 @@ class MapTracker {
   /// The same for the keyframe after this one, before it is processed: from its IMU samples, so that the
   /// answer comes while it is being processed. For use while tracking.
   virtual VisibilityQuery QueryAfter(const KeyframeInput& keyframe) const = 0;
-  /// Whether the answer to one of these queries, the last that was added, still does for another: it need not be
-  /// asked. While tracking only.
+  /// Whether the answer to one of these queries, the last that was added, still does for another: it need not
+  /// be asked. While tracking only.
   virtual bool Suffices(const VisibilityQuery& /*answered*/, const VisibilityQuery& /*query*/) const {
     return false;
   }
   /// Answer to either. ids: indices into the map; points: map frame, m.
   virtual void AddVisible(const std::vector<std::int32_t>& ids,
                           const std::vector<Eigen::Vector3f>& points) = 0;
+  /// Forgets all points: what comes next is another map's.
+  virtual void ForgetPoints() = 0;
 
   virtual TrackerOutput Process(const KeyframeInput& keyframe) = 0;
 

@@ -34,6 +34,7 @@ class PointSelector {
   /// answer.
   void Add(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& points,
            const std::vector<SE3>& T_map_body);
+  void Clear() { active_.Clear(); }
 
   /// At most `count` points for keyframe `seq`, expected at this state and angular rate (rad/s, body frame):
   /// where its events show them.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/bus/codec.h"
+#include "common/files/content_hash.h"
 #include "common/time/milliseconds.h"
 #include "common/wire/map_wire.h"
 
@@ -14,12 +15,19 @@ constexpr int kMaxPoints = 20'000;      // in one answer: 320 kB, well within a 
 constexpr std::size_t kMaxQueued = 64;  // queries; more are a flood, and old answers help nobody
 constexpr double kMaxMargin = 2000;  // pixels: the depth buffer covers the margin too, its memory is bounded
 
+std::int64_t IdOf(const PointMap& map) {
+  ContentHash hash;
+  hash.Add(map.points.data(), map.points.size() * sizeof map.points[0]);
+  return static_cast<std::int64_t>(hash.value());
+}
+
 }  // namespace
 
 MapServer::MapServer(Bus* bus, const Channels& channels, MapIndex index, const std::string& description)
     : bus_(bus),
       channels_(channels),
       index_(std::move(index)),
+      map_id_(IdOf(index_.map())),
       status_(bus, channels, "map_server", NewEpoch()),
       queries_(&status_, "MAP_QUERY"),
       dropped_(&status_.Counter("MAP_QUERY.dropped")),
@@ -63,6 +71,7 @@ void MapServer::Answer(const map_query_t& message) {
   answer.utime = message.utime;
   answer.seq = seq_++;
   answer.epoch = status_.epoch();
+  answer.map_id = map_id_;
   answer.query_seq = message.seq;
   answer.query_epoch = message.epoch;
   EncodeTo(answer, &buffer_);

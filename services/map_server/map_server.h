@@ -44,6 +44,7 @@ class MapServer : public Service {
   Bus* bus_;
   Channels channels_;
   MapIndex index_;
+  std::int64_t map_id_;
   StatusReporter status_;
   SequenceCounter queries_;
   std::int64_t* dropped_;  // counter of STATUS

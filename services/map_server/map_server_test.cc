@@ -77,6 +77,20 @@ TEST_F(MapServerTest, SameQuerySameAnswerEvenOfAnotherServer) {
   EXPECT_EQ(Counter("MAP_QUERY.received"), 2);
 }
 
+TEST_F(MapServerTest, MovedPointsAreAnotherMap) {
+  PointMap moved = map_;
+  moved.points[100].x() += 0.01F;
+  MapServer same(bus_.get(), Channels("same/"), MapIndex(map_), "the same room"),
+      other(bus_.get(), Channels("other/"), MapIndex(moved), "another room");
+  test::Asker same_asker(other_.get(), "same/"), other_asker(other_.get(), "other/");
+  for (test::Asker* asker : {&asker_, &same_asker, &other_asker}) asker->Send(test::QueryMessage(3));
+  bus_->Poll(0);
+  for (MapServer* server : {&server_, &same, &other}) server->Tick();
+  other_->Poll(0);
+  EXPECT_EQ(same_asker.answers.at(0).map_id, asker_.answers.at(0).map_id);
+  EXPECT_NE(other_asker.answers.at(0).map_id, asker_.answers.at(0).map_id);
+}
+
 TEST_F(MapServerTest, LooksAwayAndSaysSo) {
   map_query_t m = test::QueryMessage(0);
   m.position[0] = 1000;

@@ -34,6 +34,11 @@ void MapClient::AskAhead(const MapTracker& tracker, const KeyframeInput& keyfram
 void MapClient::Serve(MapTracker* tracker) {
   const std::optional<map_points_t> answer = requests_.TakeAnswer();
   if (!answer) return;
+  if (map_id_ && *map_id_ != answer->map_id) {
+    tracker->ForgetPoints();
+    ++status_->Counter("MAP_POINTS.new_map");
+  }
+  map_id_ = answer->map_id;
   tracker->AddVisible(answer->id, PointsOf(*answer));
   served_ = asked_;
 }

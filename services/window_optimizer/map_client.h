@@ -25,7 +25,9 @@ class MapClient {
   void Ask(const MapTracker& tracker, Clock::time_point now) { Ask(tracker, tracker.NextQuery(), now); }
   /// The same for the keyframe after this one, which is about to be processed, where that needs other points.
   void AskAhead(const MapTracker& tracker, const KeyframeInput& keyframe, Clock::time_point now);
-  /// Hands the answer over, where there is one that has not been.
+  /// Hands the answer over, where there is one that has not been. If it is of another map than the answer
+  /// before, as of a map_server that was restarted with another file, the tracker first forgets the points it
+  /// has: counted as MAP_POINTS.new_map.
   void Serve(MapTracker* tracker);
 
   void Tick(Clock::time_point now) { requests_.Tick(now); }
@@ -43,6 +45,7 @@ class MapClient {
 
   StatusReporter* status_;
   RequestClient<MapPointsRequest> requests_;
+  std::optional<std::int64_t> map_id_;     // of the newest answer
   VisibilityQuery asked_;                  // the newest
   std::optional<VisibilityQuery> served_;  // the newest whose answer the tracker has
 };

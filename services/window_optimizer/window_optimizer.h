@@ -31,11 +31,11 @@ namespace evit {
 /// each IMU sample and MAP_QUERY out. The tracker itself is common/tracking.
 ///
 /// The points for the next keyframe are asked for before one is processed, so that map_server works
-/// meanwhile, and only where the view has moved so far that those at hand do not suffice. Lossless: a keyframe waits for that answer, and keyframes are taken in exact order. Real time:
-/// nothing waits longer than 20 ms for an answer, work is cut down while keyframes wait (LoadLimiter), and
-/// the IMU samples of a keyframe that was dropped all the same are bridged from the service's own. Restarted
-/// with a checkpoint it asks frame_builder for the keyframes since and continues as if nothing had been
-/// (RestartCoordinator).
+/// meanwhile, and only where the view has moved so far that those at hand do not suffice. Lossless: a
+/// keyframe waits for that answer, and keyframes are taken in exact order. Real time: nothing waits longer
+/// than 20 ms for an answer, work is cut down while keyframes wait (LoadLimiter), and the IMU samples of a
+/// keyframe that was dropped all the same are bridged from the service's own. Restarted with a checkpoint it
+/// asks frame_builder for the keyframes since and continues as if nothing had been (RestartCoordinator).
 class WindowOptimizer : public Service {
  public:
   struct Settings {

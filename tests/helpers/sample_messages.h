@@ -101,6 +101,7 @@ inline map_points_t Sample<map_points_t>(int n) {
   m.query_seq = 4;
   m.query_epoch = 99;
   m.map_size = 1000;
+  m.map_id = -7;
   m.n_visible = n + 10;
   m.n = n;
   for (int i = 0; i < n; ++i) {
