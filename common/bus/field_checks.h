@@ -26,7 +26,7 @@ class FieldChecks {
   /// utime, seq and epoch, which open every message.
   template <typename Message>
   FieldChecks& Stamp(const Message& m) {
-    // The upper bound leaves room for arithmetic on numbers a forger chose.
+    // The upper bound leaves room for arithmetic on untrusted values.
     return Time("utime", m.utime).That(m.seq >= 0 && m.seq < kMaxSequence, "seq is out of range");
   }
 

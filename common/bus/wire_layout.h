@@ -14,8 +14,8 @@ struct WireField {
   int size;              // kBytes: bytes in all; kArray: bytes per element
   const char* name;      // kCount, kText: of the field
   std::int32_t maximum;  // kCount: largest value accepted (the smallest is 0)
-  const char*
-      rows;  // kArray, kGroup: the count that says how many; kText: null for one string, else the count
+  // kArray, kGroup: the count that says how many; kText: null for one string, else the count.
+  const char* rows;
   const char* columns;                             // kArray: second count, null where there is none
   const std::vector<WireField>* fields = nullptr;  // kGroup: of each element; must outlive the layout
 };

@@ -26,7 +26,7 @@ class KeyframePolicy {
     std::int64_t n_events = 0;  // in (last, imu]
     int n_imu = 0;              // samples in (last, imu]
   };
-  /// Stamp of the keyframe that is due, in (last, imu]; none where none is.
+  /// Stamp of the keyframe that is due, in (last, imu]; nothing if none is due.
   /// Tracking: the newest IMU sample's (paper Sec. III-B.1). Bootstrapping or lost: fixed intervals, also
   /// between IMU samples (so with a fixed rate), but not inside a hole in the IMU stream, where nothing can
   /// be interpolated.

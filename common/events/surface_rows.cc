@@ -42,7 +42,7 @@ EVIT_MULTIVERSION void VisibleRow(const std::uint16_t* __restrict d, const std::
 }
 
 // The decay, Eq. (2) of the paper (plainly in reference_surface.cc), in 1/128 grey levels: (255 * 128)^(1/8)
-// e^(-d/8) as a polynomial in d, to the eighth power.
+// e^(-rate d / 8) as a polynomial in d, to the eighth power.
 EVIT_ALWAYS_INLINE float DecayAt(float d, const float* c) {
   const float root = c[0] + d * (c[1] + d * (c[2] + d * (c[3] + d * c[4])));
   const float squared = root * root, fourth = squared * squared;
@@ -119,7 +119,6 @@ SurfacePass::SurfacePass(int width, int height, double sigma)
     gauss.push_back(k == 0 ? 1 : std::exp(-0.5 * k * k / (sigma * sigma)));
     sum += k == 0 ? 1 : 2 * gauss.back();
   }
-  // Rounded up by a little where the products are cut off, so that a plain area keeps its value.
   for (const double g : gauss) weights_.push_back(static_cast<std::uint16_t>(std::lround(65536 * g / sum)));
   stride_ = static_cast<std::size_t>(width);
   near_.assign(3 * (stride_ + 2), 0);

@@ -32,7 +32,7 @@ class SurfacePass {
 
   int width_, height_, radius_;
   std::size_t stride_;
-  std::vector<std::uint16_t> weights_;  // of 65536; [0] the middle, then outwards
+  std::vector<std::uint16_t> weights_;  // in 1/65536; [0] the middle, then outwards
   float coefficients_[5] = {}, least_ = 0;
   std::vector<std::uint8_t> near_;  // ring of three rows, a pixel more on each side
   std::vector<std::uint8_t> column_, supported_;

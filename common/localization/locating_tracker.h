@@ -17,7 +17,7 @@ class LocatingTracker final : public MapTracker {
   struct Options {
     SelfLocatorOptions search;
     bool from_nothing = true;  // else `tracker` has a start pose
-    /// s: so long a lost tracker looks around by itself; negative: for ever
+    /// s: time in LOST before the whole map is searched; negative: never
     double lost_s = 1;
   };
   LocatingTracker(std::unique_ptr<MapTracker> tracker, const Rig& rig, const TrackerOptions& tracker_options,

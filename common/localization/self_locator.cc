@@ -135,7 +135,7 @@ void SelfLocator::Decide() {
   }
   const FollowedPlace& best = places_.Best();
   const double since = best.Seconds();
-  progress_ = FormatText("following %zu places, the best for %.1f s at a significance of %.1f",
+  progress_ = FormatText("places followed: %zu, the best for %.1f s at a significance of %.1f",
                          places_.all().size(), since, best.Mean());
   if (since < options_.follow_s || static_cast<int>(best.steps.size()) < options_.least_steps ||
       best.Turn() < options_.least_turn || best.weak > 0) {

@@ -9,8 +9,8 @@ namespace evit {
 struct DenoiseSettings {
   double radius = 0.02;    // m: neighbours that vouch for a point
   int min_neighbours = 5;  // within it, the point itself included: fewer, and it stays as it is or goes
-  double min_usual_neighbours =
-      10;  // median over the map: in a sparser map a lonely point is nothing unusual
+  // Median over the map: in a sparser map a lonely point is nothing unusual.
+  double min_usual_neighbours = 10;
 };
 
 struct DenoiseSummary {

@@ -12,7 +12,7 @@ class LossWatch {
   /// Reads the counters; call once a second or so.
   void Update(const std::map<std::string, std::int64_t>& counters);
   /// A sentence for a person, empty where all is well: no channel lost more than 1 % (and at least three
-  /// messages) between the last update but two and the last; no channel has two senders, or one that does not
+  /// messages) over the last two intervals between updates; no channel has two senders, or one that does not
   /// number its messages.
   const std::string& text() const { return text_; }
 

@@ -13,7 +13,7 @@
 
 namespace evit {
 
-/// Collects what a service says of itself and sends it as STATUS: at 1 Hz, and at once when the state
+/// Collects a service's health and sends it as STATUS: at 1 Hz, and at once when the state
 /// changes. While messages get lost, "running" is sent as "degraded", and the detail says what is lost.
 class StatusReporter {
  public:

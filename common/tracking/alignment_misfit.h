@@ -4,10 +4,10 @@
 
 namespace evit {
 
-/// How far patches of the map lie beside their events at a pose, across their edges: what no pose can mend.
-/// For each patch of the image (ImagePatches) the step, along the direction in which its cost curves most,
-/// to the bottom of its valley. Beyond a valley's width there is no such step:
-/// the median grows with what patches are off up to about a pixel, and no further.
+/// Residual misalignment of map and events that no change of the pose can remove: for each patch of the image
+/// (ImagePatches) the step to the bottom of its cost's valley, along the direction of strongest curvature.
+/// Farther off than a valley's width there is no such step, so the median grows with the misalignment up to
+/// about a pixel and no further.
 struct AlignmentMisfit {
   int n_patches = 0;         // that say where they belong
   double offset_px = 0;      // median over these of the step's length

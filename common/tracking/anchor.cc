@@ -10,17 +10,17 @@ void Anchor::Start(const SE3& T_map_body) {
 void Anchor::Start(const SE3& T_map_body, const Eigen::Vector3d& velocity) {
   state_ = {T_map_body, velocity};
   moves_ = true;
-  reckoned_ = 0;
+  dead_reckoned_ = 0;
 }
 
 void Anchor::Move(const std::vector<ImuSample>& samples, const ImuBias& bias, double gravity,
                   double max_speed) {
   constexpr Utime kLongest = 1'500'000;  // us: by then the position may be decimetres off
   const NavState moved = PropagateImu(state_, samples, bias, gravity);
-  moves_ = moves_ && reckoned_ < kLongest && moved.velocity.norm() <= max_speed;
+  moves_ = moves_ && dead_reckoned_ < kLongest && moved.velocity.norm() <= max_speed;
   if (moves_) {
     state_ = moved;
-    reckoned_ += samples.back().t - samples.front().t;
+    dead_reckoned_ += samples.back().t - samples.front().t;
   } else {
     state_.T_map_body.q = moved.T_map_body.q;
     state_.velocity.setZero();

@@ -27,11 +27,11 @@ class Bootstrapper {
 
   struct Result {
     enum class Status {
-      kRejected,   // the map does not lie on this frame's events
-      kHopeless,   // nor on those of many frames before it
-      kUnsure,     // it does, but some frames may do so by chance
-      kLocalized,  // it does, and several frames in a row agree
-      kAligned     // and velocities and biases are known: `window` is what the sliding window starts with
+      kRejected,   // the map does not align with this frame's events
+      kHopeless,   // no frame has aligned for a long time
+      kUnsure,     // this frame aligns, but perhaps by chance
+      kLocalized,  // several frames in a row align and agree with each other
+      kAligned     // velocities and biases are known too: the sliding window starts with `window`
     };
     Status status = Status::kRejected;
     std::string reason;      // for a person
@@ -72,7 +72,7 @@ class Bootstrapper {
   BodyState state_;
   Anchor anchor_;
   int rejected_ = 0;                    // frames in a row, or since the map was last found
-  std::vector<LocalizedFrame> frames_;  // without holes
+  std::vector<LocalizedFrame> frames_;  // consecutive, no gaps
 };
 
 }  // namespace evit

@@ -16,7 +16,7 @@ bool WithinReach(const SE3& found, const SE3& predicted, const StartRange& range
          AngularDistance(found.q, predicted.q) < kSigmas * range.rotation;
 }
 
-std::string WhatIsImpossible(const BodyState& state, const FailureOptions& limits) {
+std::string WhyImplausible(const BodyState& state, const FailureOptions& limits) {
   // Written so that what is not a number is impossible too.
   if (!(state.velocity.norm() <= limits.max_speed)) {
     return FormatText("speed of %.1f m/s is over the limit of %.1f", state.velocity.norm(), limits.max_speed);

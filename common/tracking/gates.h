@@ -7,13 +7,14 @@
 #include "common/tracking/state.h"
 #include "common/tracking/tracker_options.h"
 
-/// What the trackers believe, and what not. Every test that an estimate has to pass is here.
+/// Acceptance gates: every test that an estimate has to pass before the trackers use it.
 namespace evit {
 
 constexpr int kMinPoints = 30;  // in view: fewer say nothing about six unknowns
 
-/// Whether the map lies on a keyframe's events: enough points in view, and surely (AlignmentSignificance, at
-/// least `min_significance`) and, where that is asked for, much more on edges than beside them.
+/// Whether the map aligns with a keyframe's events: enough points in view, a significance
+/// (AlignmentSignificance) of at least `min_significance` and, if `min_contrast` asks for it, clearly better
+/// on the edges than beside them.
 bool LiesOnEvents(const AlignmentQuality& quality, double min_contrast, double significance,
                   double min_significance);
 
@@ -22,7 +23,7 @@ bool LiesOnEvents(const AlignmentQuality& quality, double min_contrast, double s
 /// better than any frame does.)
 bool WithinReach(const SE3& found, const SE3& predicted, const StartRange& range);
 
-/// What of a state no body does and no sensor has, for a person; empty where all is possible.
-std::string WhatIsImpossible(const BodyState& state, const FailureOptions& limits);
+/// Describes the first physically impossible value of `state`, for a person; empty if it is plausible.
+std::string WhyImplausible(const BodyState& state, const FailureOptions& limits);
 
 }  // namespace evit

@@ -34,17 +34,17 @@ TEST(Gates, APoseFarFromWhereItWasLookedForIsOutOfReach) {
 TEST(Gates, ImpossibleStatesAreNamed) {
   const FailureOptions limits;
   BodyState state;
-  EXPECT_EQ(WhatIsImpossible(state, limits), "");
+  EXPECT_EQ(WhyImplausible(state, limits), "");
   state.velocity.x() = 1.01 * limits.max_speed;
-  EXPECT_NE(WhatIsImpossible(state, limits).find("speed"), std::string::npos);
+  EXPECT_NE(WhyImplausible(state, limits).find("speed"), std::string::npos);
   state.velocity.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(WhatIsImpossible(state, limits).find("speed"), std::string::npos);
+  EXPECT_NE(WhyImplausible(state, limits).find("speed"), std::string::npos);
   state.velocity.setZero();
   state.bias.gyro.z() = 1.01 * limits.max_gyro_bias;
-  EXPECT_NE(WhatIsImpossible(state, limits).find("biases"), std::string::npos);
+  EXPECT_NE(WhyImplausible(state, limits).find("biases"), std::string::npos);
   state.bias = {};
   state.bias.accel.y() = -1.01 * limits.max_accel_bias;
-  EXPECT_NE(WhatIsImpossible(state, limits).find("biases"), std::string::npos);
+  EXPECT_NE(WhyImplausible(state, limits).find("biases"), std::string::npos);
 }
 
 }  // namespace

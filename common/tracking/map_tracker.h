@@ -26,8 +26,8 @@ class MapTracker {
   virtual void Start(const SE3& T_map_body) = 0;
   /// The same with velocity (zero: unknown) and biases, which are trusted.
   virtual void Start(const BodyState& state) = 0;
-  /// Continues where another tracker was after its keyframe of time `t` (us), as if it were that one:
-  /// `information` is TrackerOutput's. The next keyframe must follow that one.
+  /// Continues where another tracker was after its keyframe of time `t` (us), as though it were the same
+  /// tracker: `information` is TrackerOutput's. The next keyframe must follow that one.
   virtual void Start(Utime t, const BodyState& state, const Matrix15d& information) = 0;
 
   /// The view whose points the next keyframe needs.
@@ -56,7 +56,7 @@ class MapTracker {
   /// What is known of the place by other means; replaces what was known before.
   virtual void SetPlacePrior(const PlacePrior& /*prior*/) {}
 
-  /// Overload: use only so large a share of the configured points (0..1], and stop a solve after `seconds`
+  /// Overload: use only this fraction (0..1] of the configured points, and stop a solve after `seconds`
   /// with the best state so far (0: never). Neither is reproducible: for real time only.
   virtual void set_point_share(double share) = 0;
   virtual void set_solve_budget(double seconds) = 0;

@@ -11,19 +11,19 @@ namespace evit {
 /// Covariance of the pose of a state whose inverse covariance is `information`.
 Matrix6d PoseCovariance(const Matrix15d& information);
 
-/// Covariance of the pose that no number of keyframes lowers: what the map and the edges do wrong is the same
-/// in all of them. `share` of what one keyframe's alignment alone leaves open (`alignment`: its information),
-/// at most some centimetres, and a shift of the whole map (m, per axis).
+/// Systematic part of the covariance, which averaging over keyframes does not lower: the map's and the edges'
+/// errors are the same in all of them. `share` of what one keyframe's alignment alone leaves open
+/// (`alignment`: its information), at most some centimetres, and a shift of the whole map (m, per axis).
 Matrix6d SystematicCovariance(const Matrix6d& alignment, double share, double map_sigma);
 
-/// A shift of image and map against each other as a whole, of which no keyframe shows anything: a pose takes
-/// it up. What shows are the patches of the map that lie beside their events (AlignmentMisfit), a median of a
-/// quarter pixel of which is the pixel grid's. `share` times the rest as a standard deviation per axis, once
-/// as a shift of the map at its depth, once as a turn of the camera.
+/// A common shift of image and map, which no keyframe shows because the pose absorbs it. What does show are
+/// patches of the map beside their events (AlignmentMisfit); a median of a quarter pixel is the pixel grid's.
+/// `share` times the rest as a standard deviation per axis, once as a shift of the map at its depth, once as
+/// a turn of the camera.
 Matrix6d MisfitCovariance(const AlignmentMisfit& misfit, double share, double focal_px);
 
-/// What it does to the pose that events come late by an amount which nobody has measured (pixels' latency,
-/// clocks set by hand): the body has moved on by then. `velocity`: m/s, map frame; `rate`: rad/s, body frame;
+/// Effect on the pose of an event latency that has not been measured (pixels' latency, clocks set by hand):
+/// the body has moved on by then. `velocity`: m/s, map frame; `rate`: rad/s, body frame;
 /// `sigma`: s.
 Matrix6d TimeOffsetCovariance(const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate, double sigma);
 
@@ -33,7 +33,7 @@ class PoseUncertainty {
   PoseUncertainty(const Camera& camera, const WindowOptions& options)
       : focal_px_(0.5 * (camera.fx + camera.fy)), options_(options) {}
 
-  /// The newest keyframe whose events the map lies on: `alignment` is the information of these alone. Its
+  /// The newest keyframe that aligned with the map: `alignment` is the information of its events alone. Its
   /// systematic part stays until the next one. The misfit is the mean of the last ten's or so.
   void SetAlignment(const Matrix6d& alignment, const AlignmentMisfit& misfit);
   /// `information`: inverse covariance of the newest state from all keyframes. Velocity and rate as above.
@@ -44,7 +44,7 @@ class PoseUncertainty {
   double focal_px_;
   WindowOptions options_;
   AlignmentMisfit misfit_;  // mean
-  int n_misfits_ = 0;       // in it, at most kMisfits
+  int n_misfits_ = 0;       // averaged in misfit_, at most kMisfits
   Matrix6d systematic_ = Matrix6d::Zero();
 };
 

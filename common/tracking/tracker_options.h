@@ -17,7 +17,7 @@ struct PointOptions {
   std::int64_t seed = 1;  // of every random choice
 };
 
-/// The sliding window (paper Sec. III-D), and what its covariance knows beside it.
+/// The sliding window (paper Sec. III-D), and the terms that its covariance adds.
 struct WindowOptions {
   enum class FirstNode {
     kFixed,  // the paper's: the oldest keyframe's whole state stays as it is
@@ -34,11 +34,11 @@ struct WindowOptions {
   int max_iterations = 12;
   double imu_noise_factor = 2;  // on the calibrated densities: covers integration error and vibration
   MotionModel motion_model = MotionModel::kImu;  // what predicts the next keyframe's pose
-  double correlated_share = 1;  // covariance: keyframes err together, by so much of one keyframe's variance
+  double correlated_share = 1;  // covariance: fraction of one keyframe's variance that is common to all
   double misfit_share = 2;      // covariance: image and map may be shifted as a whole, by so many times what
                             // patches of the map lie beside their events beyond what the pixel grid explains
-  double map_sigma_m = 0;       // covariance: by which the map may be shifted besides, per axis
-  double stamp_sigma_us = 400;  // covariance: by which events may be late beyond the rig's time_offset_us
+  double map_sigma_m = 0;       // covariance: 1-sigma offset of the whole map, per axis
+  double stamp_sigma_us = 400;  // covariance: 1-sigma event latency beyond the rig's time_offset_us
 };
 
 /// When bootstrapping has seen enough, and what it refuses (paper Sec. III-C).
@@ -56,11 +56,11 @@ struct BootstrapOptions {
 struct FailureOptions {
   double min_contrast = 0;  // 0..1: as in bootstrapping
   double max_coast_s = 2;   // without events that fit: the IMU carries the pose, with growing uncertainty
-  double max_position_sigma_m = 0.15;  // beyond it, or max_coast_s, the tracker says LOST
+  double max_position_sigma_m = 0.15;  // LOST above this, while the IMU alone carries the pose
   double max_speed = 6;                // m/s
   double max_gyro_bias = 0.2;          // rad/s
   double max_accel_bias = 1.5;         // m/s^2
-  double max_imu_gap_ms = 200;         // a longer hole in the IMU stream starts the window again
+  double max_imu_gap_ms = 200;         // a longer gap in the IMU stream restarts bootstrapping
 };
 
 /// All that a tracker needs to know.

@@ -100,7 +100,7 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
   Result result;
   const double significance =
       AlignmentSignificance(alignment_, *newest.field, newest.points, newest.state.T_map_body);
-  const std::string wrong = newest.points.size() > 0 ? WhyFalse(keyframe.t, significance) : "";
+  const std::string wrong = newest.points.size() > 0 ? WhyFalseStart(keyframe.t, significance) : "";
   result.coasting = WhyCoast(keyframe, out->quality, significance);
   if (result.coasting.empty()) {
     aligned_at_ = keyframe.t;
@@ -111,7 +111,7 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
   }
   ReportUncertainty(rate, out);
 
-  const std::string impossible = WhatIsImpossible(newest.state, options_.failure);
+  const std::string impossible = WhyImplausible(newest.state, options_.failure);
   result.failure = !solve.usable         ? "the solver failed"
                    : !impossible.empty() ? impossible
                    : !wrong.empty()      ? wrong
@@ -141,7 +141,7 @@ std::string WindowTracker::WhyCoast(const KeyframeInput& keyframe, const Alignme
 
 // Why a start that looked right was none after all; empty while it may be. Later the IMU vouches for the
 // pose: events may then say little for a while, as where half of the map is missing.
-std::string WindowTracker::WhyFalse(Utime t, double significance) {
+std::string WindowTracker::WhyFalseStart(Utime t, double significance) {
   constexpr Utime kProbation = 1'000'000;  // us
   constexpr int kMean = 10, kFewest = 5;   // keyframes
   n_significances_ = std::min(n_significances_ + 1, kMean);

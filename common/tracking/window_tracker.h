@@ -53,7 +53,7 @@ class WindowTracker {
   WindowNode PredictedNode(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) const;
   std::string WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality,
                        double significance) const;
-  std::string WhyFalse(Utime t, double significance);
+  std::string WhyFalseStart(Utime t, double significance);
   std::string WhyLost(const std::string& coasting, const Matrix6d& covariance) const;
 
   Rig rig_;
@@ -62,9 +62,9 @@ class WindowTracker {
   const PointSelector* points_;
   SlidingWindow window_;
   PoseUncertainty uncertainty_;
-  Utime started_at_ = 0;          // us: where bootstrapping ended; 0: from what was known
+  Utime started_at_ = 0;          // us: when bootstrapping ended; 0: resumed from a known state
   double mean_significance_ = 0;  // of the last ten keyframes or so that have events
-  int n_significances_ = 0;       // in it
+  int n_significances_ = 0;       // averaged in mean_significance_
   Utime aligned_at_ = 0;          // us: newest keyframe whose events the map lay on
 };
 

@@ -105,7 +105,7 @@ void FrameBuilder::ReportState() {
         "or a port of its own");
     return;
   }
-  if (awaited >= 0 && std::chrono::steady_clock::now() - outbox_.moved() > kPatience) {
+  if (awaited >= 0 && std::chrono::steady_clock::now() - outbox_.last_progress() > kPatience) {
     status_.SetState("waiting", "window_optimizer does not answer keyframe " + std::to_string(awaited) +
                                     ": is it running, --lossless, on the same URL and prefix?");
   } else if (flushed_ && awaited < 0) {

@@ -29,8 +29,8 @@ void KeyframeOutbox::Send(Keyframe keyframe) {
     held_.pop_front();
   }
   EncodeTo(message, &sent.bytes);
-  moved_ = Clock::now();
-  status_->AddTiming("encode", Milliseconds(moved_ - begin));
+  last_progress_ = Clock::now();
+  status_->AddTiming("encode", Milliseconds(last_progress_ - begin));
   last_sent_ = sent.seq;
   held_.push_back(std::move(sent));
   if (to_send_.empty()) {
@@ -43,8 +43,8 @@ void KeyframeOutbox::Send(Keyframe keyframe) {
 
 void KeyframeOutbox::Publish(Sent* sent) {
   bus_->Publish(channel_, sent->bytes.data(), sent->bytes.size());
-  ++status_->Counter(sent->before ? "KEYFRAME.sent_again" : "KEYFRAME.sent");
-  sent->before = true;
+  ++status_->Counter(sent->sent ? "KEYFRAME.sent_again" : "KEYFRAME.sent");
+  sent->sent = true;
 }
 
 void KeyframeOutbox::OnAnswer(const tracker_mode_t& answer) {
@@ -55,25 +55,26 @@ void KeyframeOutbox::OnAnswer(const tracker_mode_t& answer) {
   }
   if (answer.keyframe_seq > last_answered_) {
     last_answered_ = answer.keyframe_seq;
-    moved_ = Clock::now();
+    last_progress_ = Clock::now();
   }
   while (lossless_ && !held_.empty() && held_.front().seq <= last_answered_) held_.pop_front();
 }
 
 void KeyframeOutbox::Tick() {
   SendUnanswered();
-  SendLacking();
+  SendMissing();
 }
 
 void KeyframeOutbox::SendUnanswered() {
   const Clock::time_point now = Clock::now();
-  if (!lossless_ || held_.empty() || now - sent_again_ < send_again_ || now - moved_ < send_again_) return;
+  if (!lossless_ || held_.empty() || now - sent_again_ < send_again_ || now - last_progress_ < send_again_)
+    return;
   for (Sent& sent : held_) Publish(&sent);  // the optimiser takes them in exact order only
   sent_again_ = Clock::now();
 }
 
 // Few at each call: all at once would not fit the receive buffer.
-void KeyframeOutbox::SendLacking() {
+void KeyframeOutbox::SendMissing() {
   constexpr std::size_t kLongQueue = 8;
   int n = to_send_.size() > kLongQueue ? 4 : 1;
   while (n > 0 && !to_send_.empty()) {

@@ -34,17 +34,17 @@ class KeyframeOutbox {
   /// -1: none.
   std::int64_t last_sent() const { return last_sent_; }
   /// When the last keyframe was sent, or the last new answer came.
-  Clock::time_point moved() const { return moved_; }
+  Clock::time_point last_progress() const { return last_progress_; }
 
  private:
   struct Sent {
     std::int64_t seq;
     std::vector<std::uint8_t> bytes;
-    bool before;  // sent already
+    bool sent;
   };
   void Publish(Sent* sent);
   void SendUnanswered();
-  void SendLacking();
+  void SendMissing();
 
   Bus* bus_;
   std::string channel_;
@@ -54,7 +54,7 @@ class KeyframeOutbox {
   std::deque<Sent> held_;             // keyframes without an answer; real time: the newest ones
   std::deque<std::int64_t> to_send_;  // numbers of those to send next, first what a restarted optimiser lacks
   std::int64_t last_sent_ = -1, last_answered_ = -1;
-  Clock::time_point moved_ = Clock::now();
+  Clock::time_point last_progress_ = Clock::now();
   Clock::time_point sent_again_;
 };
 

@@ -30,10 +30,10 @@ class MapServer : public Service {
 
   /// The index of places for PLACE_QUERY is kept in this file from one run to the next.
   void KeepPlacesIn(const std::string& path) { places_.KeepIn(path); }
-  /// Makes ready for PLACE_QUERY now, and not when the first one comes.
+  /// Builds the index of places now instead of at the first PLACE_QUERY.
   void PreparePlaces() { places_.Prepare(); }
 
-  /// Answers what has come in since the last call, in order; of a flood the newest queries only.
+  /// Answers what has come in since the last call, in order; if queries back up, the newest only.
   void Tick() override;
   void Stop() override { status_.SetState("finished", "stopped"); }
 

@@ -21,8 +21,8 @@
 namespace evit {
 
 /// The part of map_server that says where in the map a keyframe may have been seen from: PLACE_QUERY in,
-/// PLACES out. Works in a thread of its own, one question at a time, so that MAP_QUERY does not wait; who
-/// does not ask pays nothing. The index of places is made at the first question, or ahead of it with
+/// PLACES out. Works in a thread of its own, one question at a time, so that MAP_QUERY does not wait; it
+/// costs nothing unless asked. The index of places is made at the first question, or ahead of it with
 /// Prepare(). As stateless as the rest: an answer depends on map and question alone.
 class PlaceServer {
  public:
@@ -34,7 +34,7 @@ class PlaceServer {
   void Prepare();
   /// Where the index is kept (PlaceIndexPath). Before the first Tick().
   void KeepIn(const std::string& path) { path_ = path; }
-  /// Sends what is answered and begins with what is asked; of a flood the newest question only.
+  /// Sends what is answered and begins with what is asked; if questions back up, the newest only.
   void Tick();
   bool busy() const { return work_.valid(); }
 

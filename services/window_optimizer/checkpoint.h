@@ -17,7 +17,7 @@ struct Checkpoint {
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();  // rad/s, body frame
   double image_speed = 0;                          // pixels/s, see tracker_mode_t
 
-  /// Or else it was bootstrapping.
+  /// False if saved while bootstrapping.
   bool tracking() const { return !information.isZero(0); }
   /// The state `dt` us later at constant velocity and rate.
   BodyState After(Utime dt) const;

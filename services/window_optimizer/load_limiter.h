@@ -8,7 +8,7 @@
 
 namespace evit {
 
-/// How much work each keyframe may be, real time: LoadGovernor's policy applied to the keyframes of a queue.
+/// Work budget of each keyframe, real time: LoadGovernor's policy applied to the keyframes of a queue.
 /// STATUS has the time "wait" (ms) and the counters overload.level and overload.steps.
 class LoadLimiter {
  public:

@@ -38,7 +38,7 @@ class MapClient {
   /// Nothing is asked for that has not come.
   bool answered() const { return requests_.answered(); }
   bool GivenUp(Clock::time_point now) const { return requests_.GivenUp(now); }
-  bool NobodyAnswers(Clock::time_point now) const { return requests_.NobodyAnswers(now); }
+  bool ServerTimedOut(Clock::time_point now) const { return requests_.ServerTimedOut(now); }
 
  private:
   void Ask(const MapTracker& tracker, const VisibilityQuery& query, Clock::time_point now);

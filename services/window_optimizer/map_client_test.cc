@@ -28,7 +28,8 @@ class NotingTracker : public MapTracker {
     return query;
   }
   VisibilityQuery QueryAfter(const KeyframeInput& /*keyframe*/) const override { return NextQuery(); }
-  void AddVisible(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& /*points*/) override {
+  void AddVisible(const std::vector<std::int32_t>& ids,
+                  const std::vector<Eigen::Vector3f>& /*points*/) override {
     told.push_back("add " + std::to_string(ids.size()));
   }
   void ForgetPoints() override { told.emplace_back("forget"); }
@@ -50,9 +51,10 @@ class NotingTracker : public MapTracker {
 class MapClientTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    server_->Subscribe(channels_.map_query, [this](const std::string&, const std::uint8_t* data, std::size_t size) {
-      ASSERT_TRUE(DecodeChecked(data, size, &query_));
-    });
+    server_->Subscribe(channels_.map_query,
+                       [this](const std::string&, const std::uint8_t* data, std::size_t size) {
+                         ASSERT_TRUE(DecodeChecked(data, size, &query_));
+                       });
   }
   /// A question, and a server's answer of two points.
   void AskAndAnswer(std::int64_t epoch, std::int64_t map_id) {

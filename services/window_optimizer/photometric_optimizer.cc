@@ -105,7 +105,7 @@ void PhotometricOptimizer::Report(const ProcessedKeyframe& processed) {
 void PhotometricOptimizer::Tick() {
   map_.Tick(Clock::now());
   ProcessNext();
-  if (map_.NobodyAnswers(Clock::now())) {
+  if (map_.ServerTimedOut(Clock::now())) {
     status_.SetState(
         "waiting",
         "map_server does not answer: is it running with --photometric-map, on the same URL and prefix?");

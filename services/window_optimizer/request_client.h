@@ -66,7 +66,7 @@ class RequestClient {
   /// How long an answer is worth waiting for.
   struct Patience {
     Clock::duration answer;                            // to one question
-    Clock::duration silence = Clock::duration::max();  // of a server that has been asked, over all questions
+    Clock::duration silence = Clock::duration::max();  // since the server was last heard, over all questions
   };
   /// `bus` and `status` must outlive this.
   RequestClient(Bus* bus, const Channels& channels, StatusReporter* status, const Patience& patience,
@@ -85,7 +85,7 @@ class RequestClient {
   /// Not answered, and not worth waiting for any longer.
   bool GivenUp(Clock::time_point now) const;
   /// Not answered for so long that map_server is not there.
-  bool NobodyAnswers(Clock::time_point now) const { return !answered_ && now - first_asked_ > kNoServer; }
+  bool ServerTimedOut(Clock::time_point now) const { return !answered_ && now - first_asked_ > kNoServer; }
 
  private:
   StatusReporter* status_;

@@ -141,8 +141,8 @@ TEST_F(RequestClientTest, AServerThatStaysSilentIsNotWaitedForAtEachQuestion) {
 TEST_F(RequestClientTest, SaysWhenNobodyAnswers) {
   client_.Ask(PointsQuery(), now_);
   client_.Tick(now_ + Points::kNoServer);
-  EXPECT_FALSE(client_.NobodyAnswers(now_ + Points::kNoServer));
-  EXPECT_TRUE(client_.NobodyAnswers(now_ + Points::kNoServer + milliseconds(1)));
+  EXPECT_FALSE(client_.ServerTimedOut(now_ + Points::kNoServer));
+  EXPECT_TRUE(client_.ServerTimedOut(now_ + Points::kNoServer + milliseconds(1)));
 }
 
 TEST_F(RequestClientTest, RubbishIsCounted) {

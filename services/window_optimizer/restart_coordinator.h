@@ -13,7 +13,7 @@
 namespace evit {
 
 /// Continues a run that died. Keeps the newest checkpoint in a file; started again, it announces what it
-/// found there until frame_builder has sent the keyframes since, and collects them. Where they are gone, the
+/// found there until frame_builder has sent the keyframes since, and collects them. If they are gone, the
 /// checkpoint still says where the body must be at the first keyframe that comes.
 class RestartCoordinator {
  public:
@@ -40,15 +40,15 @@ class RestartCoordinator {
   /// Ends collecting: the keyframes, in order. The checkpoint stays.
   std::vector<keyframe_t> TakeKeyframes();
 
-  /// Where the keyframes since the checkpoint are gone: where the body must be at time `t` (us). None where
-  /// that is too long after it, or before.
+  /// If the keyframes since the checkpoint are gone: where the body must be at time `t` (us). None if that is
+  /// before the checkpoint or too long after it.
   std::optional<BodyState> PredictedAt(Utime t) const;
 
   /// Ends the restart: the checkpoint has been used, or is of no use.
   void Done();
 
-  /// Of the newest keyframe; for the next restart.
-  bool keeps() const { return file_.has_value(); }
+  /// Whether checkpoints are stored: of the newest keyframe, for the next restart.
+  bool enabled() const { return file_.has_value(); }
   void Store(const Checkpoint& checkpoint) { file_->Store(checkpoint); }
 
  private:

@@ -40,14 +40,14 @@ class RestartCoordinatorTest : public ::testing::Test {
 
 TEST_F(RestartCoordinatorTest, WithoutAFileNothingIsKept) {
   const RestartCoordinator restart("");
-  EXPECT_FALSE(restart.keeps());
+  EXPECT_FALSE(restart.enabled());
   EXPECT_FALSE(restart.collecting());
   EXPECT_FALSE(restart.checkpoint().has_value());
 }
 
 TEST_F(RestartCoordinatorTest, TheFirstRunHasNothingToContinue) {
   const RestartCoordinator restart(file_);
-  EXPECT_TRUE(restart.keeps());
+  EXPECT_TRUE(restart.enabled());
   EXPECT_FALSE(restart.collecting());
   EXPECT_FALSE(restart.checkpoint().has_value());
 }

@@ -21,8 +21,8 @@ class TrackerWorker {
   };
   TrackerWorker(std::unique_ptr<MapTracker> tracker, Threading threading);
 
-  /// To be asked and told what to do; null while it works. Not to be kept.
-  MapTracker* at_rest() const { return tracker_.get(); }
+  /// The tracker while it is idle, else null. Do not store it.
+  MapTracker* idle_tracker() const { return tracker_.get(); }
   bool working() const { return work_.valid(); }
 
   /// Begins with a keyframe. `input`: what the tracker needs of it. The tracker must be at rest.

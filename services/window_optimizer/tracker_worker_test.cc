@@ -38,20 +38,20 @@ class TrackerWorkerTest : public ::testing::TestWithParam<Threading> {
 };
 
 TEST_P(TrackerWorkerTest, NobodyReachesTheTrackerUntilItsResultIsTaken) {
-  EXPECT_NE(worker_.at_rest(), nullptr);
+  EXPECT_NE(worker_.idle_tracker(), nullptr);
   EXPECT_FALSE(worker_.working());
   worker_.Start(Keyframe(7), Input(1'000'000));
-  EXPECT_EQ(worker_.at_rest(), nullptr);
+  EXPECT_EQ(worker_.idle_tracker(), nullptr);
   EXPECT_TRUE(worker_.working());
   std::this_thread::sleep_for(std::chrono::milliseconds(20));  // done or not
-  EXPECT_EQ(worker_.at_rest(), nullptr);
+  EXPECT_EQ(worker_.idle_tracker(), nullptr);
   const auto processed = worker_.Finish(Wait::kYes);
   ASSERT_TRUE(processed.has_value());
   EXPECT_EQ(processed->keyframe.message.seq, 7);
   EXPECT_EQ(processed->output.mode, TrackerMode::kBootstrapping);
   EXPECT_GT(processed->solve_ms, 0);
-  ASSERT_NE(worker_.at_rest(), nullptr);
-  EXPECT_EQ(worker_.at_rest()->state_time(), 1'000'000);
+  ASSERT_NE(worker_.idle_tracker(), nullptr);
+  EXPECT_EQ(worker_.idle_tracker()->state_time(), 1'000'000);
   EXPECT_FALSE(worker_.working());
 }
 
@@ -62,7 +62,7 @@ TEST_P(TrackerWorkerTest, TakesOneKeyframeAfterTheOther) {
     while (!processed) processed = worker_.Finish(Wait::kNo);
     EXPECT_EQ(processed->keyframe.message.seq, k);
   }
-  EXPECT_EQ(worker_.at_rest()->state_time(), 1'040'000);
+  EXPECT_EQ(worker_.idle_tracker()->state_time(), 1'040'000);
 }
 
 TEST_P(TrackerWorkerTest, NothingBegunNothingFinished) {

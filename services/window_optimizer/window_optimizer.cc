@@ -42,7 +42,7 @@ WindowOptimizer::WindowOptimizer(Bus* bus, const Channels& channels, const Setti
   Subscribe(bus, channels.pose_hint, this, &WindowOptimizer::OnPoseHint);
   status_.SetState("waiting", "waiting for map_server and for keyframes");
   if (restart_.checkpoint()) {
-    worker_.at_rest()->Start(restart_.checkpoint()->state);
+    worker_.idle_tracker()->Start(restart_.checkpoint()->state);
     publisher_.PublishAnnouncement(restart_.Announce(Clock::now()));
   }
   AskForPoints();
@@ -69,7 +69,7 @@ void WindowOptimizer::OnMapPoints(const std::uint8_t* data, std::size_t size) {
 
 void WindowOptimizer::OnPlaces(const std::uint8_t* data, std::size_t size) {
   if (!places_.OnAnswer(data, size, Clock::now())) return;
-  if (worker_.at_rest() != nullptr) places_.Serve(worker_.at_rest(), Clock::now());
+  if (worker_.idle_tracker() != nullptr) places_.Serve(worker_.idle_tracker(), Clock::now());
   ProcessQueue();
 }
 
@@ -94,7 +94,7 @@ void WindowOptimizer::ProcessQueue() {
       return;  // its points first
     }
     // While tracking, the high-rate frames that queued up tell nothing that the newest does not.
-    if (worker_.at_rest()->mode() == TrackerMode::kTracking) queue_.DropSuperseded();
+    if (worker_.idle_tracker()->mode() == TrackerMode::kTracking) queue_.DropSuperseded();
     StartWork(queue_.Pop());
     if (settings_.lossless) FinishWork(TrackerWorker::Wait::kYes);
   }
@@ -108,7 +108,7 @@ bool WindowOptimizer::ReadyForNext() const {
 }
 
 void WindowOptimizer::StartWork(QueuedKeyframe next) {
-  MapTracker* const tracker = worker_.at_rest();
+  MapTracker* const tracker = worker_.idle_tracker();
   const bool tracking = tracker->mode() == TrackerMode::kTracking;
   if (!settings_.lossless) LimitWork(next, tracking);
   KeyframeInput input = InputOf(next.message);
@@ -121,13 +121,13 @@ void WindowOptimizer::StartWork(QueuedKeyframe next) {
 void WindowOptimizer::LimitWork(const QueuedKeyframe& next, bool tracking) {
   const bool shows_load = tracking && !queue_.LateByRestart(next.message);
   const LoadLimiter::Limits limits = load_.Begin(next, shows_load, !queue_.empty(), Clock::now());
-  worker_.at_rest()->set_point_share(limits.point_share);
-  worker_.at_rest()->set_solve_budget(limits.solve_budget);
+  worker_.idle_tracker()->set_point_share(limits.point_share);
+  worker_.idle_tracker()->set_solve_budget(limits.solve_budget);
 }
 
 KeyframeInput WindowOptimizer::InputOf(const keyframe_t& keyframe) {
   KeyframeInput input = FromMessage(keyframe);
-  const Utime state_time = worker_.at_rest()->state_time();
+  const Utime state_time = worker_.idle_tracker()->state_time();
   if (state_time != 0 && keyframe.previous_utime != state_time) {
     // A keyframe between was lost, or frame_builder was restarted: the IMU samples since are our own.
     input.imu = imu_.history().Between(state_time, input.t);
@@ -145,17 +145,17 @@ bool WindowOptimizer::FinishWork(TrackerWorker::Wait wait) {
   if (!asked_ahead_ || !tracking) AskForPoints();
   UsePoints();
   UseHint();
-  places_.Serve(worker_.at_rest(), Clock::now());
+  places_.Serve(worker_.idle_tracker(), Clock::now());
   return true;
 }
 
 void WindowOptimizer::Report(const ProcessedKeyframe& processed) {
-  const MapTracker& tracker = *worker_.at_rest();
+  const MapTracker& tracker = *worker_.idle_tracker();
   const keyframe_t& keyframe = processed.keyframe.message;
   const TrackerOutput& output = processed.output;
   publisher_.PublishWindow(processed);
   publisher_.PublishMode(processed, load_.keyframe_stride());
-  if (restart_.keeps() && output.has_pose) {
+  if (restart_.enabled() && output.has_pose) {
     restart_.Store({keyframe.utime, keyframe.epoch, keyframe.seq, tracker.state(), output.information,
                     tracker.rate(), output.image_speed});
   }
@@ -176,15 +176,15 @@ void WindowOptimizer::PublishPoses(const std::vector<ImuSample>& samples, const 
   }
 }
 
-void WindowOptimizer::AskForPoints() { map_.Ask(*worker_.at_rest(), Clock::now()); }
+void WindowOptimizer::AskForPoints() { map_.Ask(*worker_.idle_tracker(), Clock::now()); }
 
 // Those that come while a keyframe is in work are for the one after it.
 void WindowOptimizer::UsePoints() {
-  if (worker_.at_rest() != nullptr) map_.Serve(worker_.at_rest());
+  if (worker_.idle_tracker() != nullptr) map_.Serve(worker_.idle_tracker());
 }
 
 void WindowOptimizer::UseHint() {
-  MapTracker* const tracker = worker_.at_rest();
+  MapTracker* const tracker = worker_.idle_tracker();
   if (tracker == nullptr) return;
   const std::optional<SE3> T_map_body = hints_.Take();
   if (!T_map_body) return;
@@ -206,7 +206,7 @@ void WindowOptimizer::CatchUp() {
   if (progress == KeyframeCatchUp::Progress::kWhole) {
     const Checkpoint& checkpoint = *restart_.checkpoint();
     if (checkpoint.tracking())
-      worker_.at_rest()->Start(checkpoint.t, checkpoint.state, checkpoint.information);
+      worker_.idle_tracker()->Start(checkpoint.t, checkpoint.state, checkpoint.information);
     restart_.Done();
     queue_.ExpectBurstUpTo(keyframes.back().seq);
     ++status_.Counter("checkpoint.resumed");
@@ -223,7 +223,7 @@ void WindowOptimizer::StartFromCheckpoint() {
   initial.T_map_body = settings_.T_map_body;
   const std::optional<BodyState> predicted = restart_.PredictedAt(queue_.front().message.utime);
   const bool searches = settings_.locate && settings_.locate->from_nothing;
-  if (predicted || !searches) worker_.at_rest()->Start(predicted.value_or(initial));
+  if (predicted || !searches) worker_.idle_tracker()->Start(predicted.value_or(initial));
   ++status_.Counter(predicted ? "checkpoint.used" : "checkpoint.stale");
   restart_.Done();
   AskForPoints();
@@ -234,7 +234,7 @@ void WindowOptimizer::Tick() {
   places_.Tick(Clock::now());
   if (restart_.collecting()) CatchUp();
   ProcessQueue();
-  if (map_.NobodyAnswers(Clock::now())) {
+  if (map_.ServerTimedOut(Clock::now())) {
     status_.SetState("waiting", "map_server does not answer: is it running, on the same URL and prefix?");
   }
   status_.Tick();

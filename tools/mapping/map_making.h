@@ -19,7 +19,7 @@ struct MapMaking {
   std::string rgbd;    // folder of RGB-D images with all they need
   std::string events;  // LCM log: needs poses and rig
   std::string poses, camera, rig;
-  std::optional<PosedFrame> poses_of;                   // nothing: the camera with images, the body with events
+  std::optional<PosedFrame> poses_of;                // nothing: the camera with images, the body with events
   SE3 T_map_world;                                   // poses are in the world's frame
   std::string frames;                                // "A:B" of pictures, empty: all
   std::optional<std::pair<double, double>> seconds;  // of events, from the first pose; nothing: all
