@@ -62,6 +62,7 @@ TEST_F(SettingsFile, FullCopiesOfEarlierVersionsLoadToTheSameValues) {
     PipelineOptions expected = LoadOptions(kConfig + name + ".textproto");
     expected.keyframes.n_event = 30'000;  // what has another default since
     expected.surface.blur_sigma_px = 0.5;
+    expected.points.max_active = 5000;
     expected.points.per_keyframe = 1500;
     expected.failure.min_contrast = 0.03;
     expected.bootstrap.min_contrast = 0.06;
