@@ -10,8 +10,9 @@ namespace evit {
 namespace {
 
 constexpr std::size_t kFewest = 6;
-constexpr double kPoseSigma = 0.01;    // m: of a pose from one keyframe's events
-constexpr double kLeastSigma = 0.002;  // m: however well they seem to agree
+// m: of a pose from its events. On real recordings poses err by half to one centimetre, and as the view changes:
+// neighbours alike, so that what remains of a fit does not show it.
+constexpr double kPoseSigma = 0.01;
 constexpr double kTurnSigma = 0.005;   // rad: the same, of its rotation
 constexpr double kGyroBias = 0.01;     // rad/s, of a calibrated sensor
 constexpr double kConstant = 0.2;  // m/s^2: bias of the accelerometer, and gravity through a tilt of a degree
@@ -101,7 +102,7 @@ std::optional<MotionFit> FitMotion(const std::vector<FollowedPlace::Step>& steps
   fit.scale = x[kUnknowns - 1];
   fit.misfit = std::sqrt(squares / static_cast<double>(steps.size()));
   const double sigma =
-      std::max(kLeastSigma, std::sqrt(squares / (3.0 * static_cast<double>(steps.size()) - 7)));
+      std::max(kPoseSigma, std::sqrt(squares / (3.0 * static_cast<double>(steps.size()) - 7)));
   const Vector10 last = Vector10::Unit(kUnknowns - 1);
   fit.scale_sigma = sigma * std::sqrt(kTogether * std::max(0.0, last.dot(solver.solve(last))));
   return fit;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "common/localization/scale_watch.h"
@@ -39,13 +40,29 @@ struct Recorded {
 
 TEST(MotionFitTest, TellsHowLargeAMapIs) {
   for (const double scale : {0.67, 1.0, 1.5}) {
-    const Recorded recorded(scale, 2.5);
+    const Recorded recorded(scale, 4);
     const std::optional<MotionFit> fit = FitMotion(recorded.steps, recorded.imu, 9.81);
     ASSERT_TRUE(fit);
     EXPECT_NEAR(fit->scale, scale, 0.1);
     EXPECT_LT(fit->scale_sigma, 0.12);
     EXPECT_LT(fit->misfit, 0.006);
     EXPECT_EQ(fit->Disagrees(), scale != 1);
+  }
+}
+
+// As on real recordings: a narrow view takes a centimetre sideways for a turn, the farther the more it has moved.
+TEST(MotionFitTest, ErrorsThatGoWithTheMotionAreNoWrongSize) {
+  for (const double seconds : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0}) {
+    Recorded recorded(1, seconds, 0.1);
+    const Eigen::Vector3d first = recorded.steps.front().T_map_body.p;
+    double farthest = 0;
+    for (const FollowedPlace::Step& step : recorded.steps)
+      farthest = std::max(farthest, (step.T_map_body.p - first).norm());
+    for (FollowedPlace::Step& step : recorded.steps)
+      step.T_map_body.p -= 0.01 / farthest * (step.T_map_body.p - first);
+    const std::optional<MotionFit> fit = FitMotion(recorded.steps, recorded.imu, 9.81);
+    ASSERT_TRUE(fit);
+    EXPECT_FALSE(fit->Disagrees()) << seconds << " s: " << fit->scale << " +- " << fit->scale_sigma;
   }
 }
 
