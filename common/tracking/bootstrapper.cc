@@ -44,6 +44,7 @@ void Bootstrapper::Start(const BodyState& state) {
   }
   frames_.clear();
   rejected_ = 0;
+  unrivaled_ = false;
 }
 
 Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool follows,
@@ -96,12 +97,14 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
     if (frames_.size() >= kLongestDoubt) RejectFrame(&result);
     return result;
   }
+  if (!unrivaled_) unrivaled_ = Unrivaled(keyframe.seq, &result);
+  if (!unrivaled_) return result;
   result.status = Result::Status::kLocalized;
   result.reason = "localising high-rate frames";
   // A chain that may be false moves no anchor: where it ends nothing would be left of where the body was.
   rejected_ = 0;
   anchor_.Start(fit.T_map_body, state_.velocity);
-  if (ReadyToAlign()) AlignUnlessRivaled(keyframe.seq, &result);
+  if (ReadyToAlign() && Unrivaled(keyframe.seq, &result)) Align(&result);
   return result;
 }
 
@@ -118,15 +121,13 @@ bool Bootstrapper::Found() const {
          MeanSignificance() >= kFoundSignificance;
 }
 
-// A false lock may look as sure as the right one while no other is known: before the window takes over, none
-// may explain the newest frame as well. Where another explains it better the chain starts again from there.
-void Bootstrapper::AlignUnlessRivaled(std::int64_t seq, Result* result) {
+// A false lock may look as sure as the right one while no other is known: before a first pose is told, and
+// again before the window takes over, none may explain the newest frame as well. Where another explains it
+// better the chain starts again from there.
+bool Bootstrapper::Unrivaled(std::int64_t seq, Result* result) {
   const SurfaceField& field = *frames_.back().field;
   const StartRival rival = FindRival(alignment_, field, result->points, state_.T_map_body, kStart, seq);
-  if (!rival.distinct || rival.significance > 0) {
-    Align(result);
-    return;
-  }
+  if (!rival.distinct || rival.significance > 0) return true;
   result->reason = "another pose explains the events as well";
   if (rival.significance < -kPreferredSignificance) {
     BodyState start = state_;
@@ -134,10 +135,12 @@ void Bootstrapper::AlignUnlessRivaled(std::int64_t seq, Result* result) {
     start.velocity.setZero();
     Start(start);
   }
+  return false;
 }
 
 void Bootstrapper::RejectFrame(Result* result) {
   frames_.clear();
+  unrivaled_ = false;
   state_.T_map_body = anchor_.pose();
   state_.velocity = anchor_.velocity();
   ++rejected_;

@@ -62,7 +62,7 @@ class Bootstrapper {
   Eigen::Vector3d RecentVelocity() const;
   bool ReadyToAlign() const;
   bool Found() const;
-  void AlignUnlessRivaled(std::int64_t seq, Result* result);
+  bool Unrivaled(std::int64_t seq, Result* result);
   void Align(Result* result);
 
   Rig rig_;
@@ -73,6 +73,7 @@ class Bootstrapper {
   Anchor anchor_;
   int rejected_ = 0;                    // frames in a row, or since the map was last found
   std::vector<LocalizedFrame> frames_;  // consecutive, no gaps
+  bool unrivaled_ = false;              // this chain: no other pose explains the events as well
 };
 
 }  // namespace evit

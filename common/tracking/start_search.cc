@@ -1,9 +1,11 @@
 #include "common/tracking/start_search.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "common/tracking/alignment_information.h"
 #include "common/tracking/alignment_significance.h"
 #include "common/tracking/place_search.h"
 
@@ -15,8 +17,12 @@ constexpr int kTried = 4;                  // the best of them, from which to lo
 constexpr int kLevel = 2;                  // that level: basins of some 12 pixels
 constexpr std::size_t kPlacePoints = 400;  // to compare them by
 constexpr std::size_t kFitPoints = 1200;   // to localise by
+constexpr int kWeakWays = 2;               // directions of which a frame says least
+constexpr int kWeakSteps = 8;              // along each for once the range: centimetres
 constexpr double kSameValley = 0.03;       // m, rad
 constexpr double kFarthest = 2;  // times the range: what is found beyond has nothing to do with the start
+constexpr double kFarthestRival =
+    4;  // a false start may be kFarthest beside one that is as far from the truth
 
 AlignmentPoints Thinned(const AlignmentPoints& points, std::size_t count) {
   const std::size_t stride = std::max<std::size_t>(1, points.size() / count);
@@ -37,15 +43,46 @@ SE3 PoseAround(const SE3& centre, const StartRange& range, int k) {
   return pose;
 }
 
-}  // namespace
+// Along the ways that the events say least about, where turning nearly makes up for moving: false poses lie
+// there, and so does the right one when the search has come upon a false one. For each way and side the pose
+// at which the points lie most surely, beyond the slope of the centre's own valley.
+std::vector<SE3> PosesAlongWeakWays(const AlignmentSettings& settings, const SurfaceField& field,
+                                    const AlignmentPoints& points, const SE3& centre, const StartRange& range,
+                                    double farthest) {
+  Vector6d scale;
+  scale << Eigen::Vector3d::Constant(range.position), Eigen::Vector3d::Constant(range.rotation);
+  const Matrix6d information = AlignmentInformation(settings, field, points, centre);
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(scale.asDiagonal() * information * scale.asDiagonal());
+  const auto steps = static_cast<int>(farthest * kWeakSteps);
+  std::vector<SE3> best;
+  for (int way = 0; way < kWeakWays; ++way) {
+    for (const int side : {-1, 1}) {
+      const Vector6d step = scale.cwiseProduct(solver.eigenvectors().col(way)) * side / kWeakSteps;
+      double before = AlignmentSignificance(settings, field, points, centre), most = 0;
+      bool climbing = false;
+      for (int k = 1; k <= steps; ++k) {
+        const SE3 pose((centre.q * ExpSO3(k * step.tail<3>())).normalized(), centre.p + k * step.head<3>());
+        const double significance = AlignmentSignificance(settings, field, points, pose);
+        climbing = climbing || significance > before;
+        before = significance;
+        if (!climbing || significance <= most) continue;
+        if (most == 0) best.push_back(pose);
+        most = significance, best.back() = pose;
+      }
+    }
+  }
+  return best;
+}
 
-LocalizerResult SearchStart(const AlignmentSettings& settings, const SurfaceField& field,
-                            const AlignmentPoints& points, const SE3& centre, const StartRange& range,
-                            std::int64_t frame) {
+// SearchStart(), whose result lies at most `farthest` times the range from the centre.
+LocalizerResult Search(const AlignmentSettings& settings, const SurfaceField& field,
+                       const AlignmentPoints& points, const SE3& centre, const StartRange& range,
+                       double farthest, std::int64_t frame) {
   const AlignmentPoints few = Thinned(points, kPlacePoints), some = Thinned(points, kFitPoints);
   const int level = std::min(field.levels() - 1, kLevel);
-  StartRange from_place = range, finest = range;
+  StartRange from_place = range, from_weak = range, finest = range;
   from_place.levels = level + 1;
+  from_weak.levels = std::min(field.levels(), 2);  // already beside their events
   finest.levels = 1;
   std::vector<std::pair<double, SE3>> places;
   for (int k = 0; k < kPlaces; ++k) {
@@ -55,29 +92,40 @@ LocalizerResult SearchStart(const AlignmentSettings& settings, const SurfaceFiel
   std::stable_sort(places.begin(), places.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   const auto near = [&](const SE3& pose) {
-    return (pose.p - centre.p).norm() < kFarthest * range.position &&
-           AngularDistance(pose.q, centre.q) < kFarthest * range.rotation;
+    return (pose.p - centre.p).norm() < farthest * range.position &&
+           AngularDistance(pose.q, centre.q) < farthest * range.rotation;
   };
   LocalizerResult best = LocalizeBest(settings, field, some, centre, range);
   if (!near(best.T_map_body)) best.T_map_body = centre;
   double most = AlignmentSignificance(settings, field, some, best.T_map_body);
   int iterations = best.iterations;
-  for (int k = 0; k < kTried; ++k) {
-    const LocalizerResult fit = Localize(settings, field, some, places[k].second, from_place);
+  const auto try_from = [&](const SE3& pose, const StartRange& from) {
+    const LocalizerResult fit = Localize(settings, field, some, pose, from);
     iterations += fit.iterations;
     const double significance = AlignmentSignificance(settings, field, some, fit.T_map_body);
     if (near(fit.T_map_body) && significance > most) most = significance, best = fit;
-  }
+  };
+  for (int k = 0; k < kTried; ++k) try_from(places[k].second, from_place);
+  for (const SE3& pose : PosesAlongWeakWays(settings, field, few, best.T_map_body, range, farthest))
+    try_from(pose, from_weak);
   best = LocalizeBest(settings, field, points, best.T_map_body, finest);
   best.iterations += iterations;
   return best;
+}
+
+}  // namespace
+
+LocalizerResult SearchStart(const AlignmentSettings& settings, const SurfaceField& field,
+                            const AlignmentPoints& points, const SE3& centre, const StartRange& range,
+                            std::int64_t frame) {
+  return Search(settings, field, points, centre, range, kFarthest, frame);
 }
 
 StartRival FindRival(const AlignmentSettings& settings, const SurfaceField& field,
                      const AlignmentPoints& points, const SE3& T_map_body, const StartRange& range,
                      std::int64_t frame) {
   StartRival rival;
-  rival.T_map_body = SearchStart(settings, field, points, T_map_body, range, frame).T_map_body;
+  rival.T_map_body = Search(settings, field, points, T_map_body, range, kFarthestRival, frame).T_map_body;
   rival.distinct = (rival.T_map_body.p - T_map_body.p).norm() > kSameValley ||
                    AngularDistance(rival.T_map_body.q, T_map_body.q) > kSameValley;
   rival.significance = SignificanceOver(settings, field, points, T_map_body, rival.T_map_body);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "common/tracking/alignment_significance.h"
 #include "common/tracking/synthetic_scene.h"
 
@@ -57,6 +59,34 @@ TEST_F(StartSearchTest, ARivalOfTheRightPoseIsWorseAndOneOfAWrongPoseBetter) {
   EXPECT_TRUE(of_wrong.distinct);
   EXPECT_LT(of_wrong.significance, -kPreferredSignificance);
   EXPECT_LT((of_wrong.T_map_body.p - truth_.p).norm(), 0.01);
+}
+
+// A narrow view of a wall with little before it: moving sideways and turning back hardly shows, so a false
+// pose may lie far beyond the range of a start.
+TEST(StartSearchOnAWall, FindsTheRightPoseAlongTheWayThatTheEventsSayLeastAbout) {
+  AlignmentSettings settings = synthetic::Alignment();
+  Camera camera = settings.camera();
+  camera.width = 190, camera.height = 180, camera.fx = camera.fy = 198, camera.cx = 95, camera.cy = 90;
+  settings.set_camera(camera);
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<double> u(-1, 1);
+  std::vector<Eigen::Vector3f> wall;
+  for (int line = 0; line < 60; ++line) {
+    const double depth = line % 6 == 0 ? 1.0 : 1.6;
+    const Eigen::Vector3d a(depth, u(rng), u(rng)), along = 0.25 * Eigen::Vector3d(0, u(rng), u(rng));
+    for (int i = 0; i < 40; ++i) wall.push_back((a + along * (i / 39.0)).cast<float>());
+  }
+  const AlignmentPoints points(wall);
+  const SE3 truth;
+  const SurfaceField field(synthetic::DrawSurface(settings, wall, truth, 0.8), 4);
+  for (const double sideways : {-0.3, -0.15, 0.15, 0.3}) {
+    const SE3 wrong(ExpSO3({0, 0, -std::atan(sideways / 1.6)}), {0, sideways, 0});
+    const StartRival rival = FindRival(settings, field, points, wrong, StartRange(), 1);
+    EXPECT_TRUE(rival.distinct) << sideways;
+    EXPECT_LT(rival.significance, -kPreferredSignificance) << sideways;
+    // In the right valley; frames that follow walk the rest of it.
+    EXPECT_LT((rival.T_map_body.p - truth.p).norm(), 0.25 * std::abs(sideways)) << sideways;
+  }
 }
 
 TEST_F(StartSearchTest, WithoutEventsTheStartStaysWhereItIs) {
