@@ -10,11 +10,11 @@ namespace evit {
 namespace {
 
 constexpr std::size_t kFewest = 6;
-// m: of a pose from its events. On real recordings poses err by half to one centimetre, and as the view changes:
-// neighbours alike, so that what remains of a fit does not show it.
+// m: of a pose from its events. On real recordings poses err by half to one centimetre, and as the view
+// changes: neighbours alike, so that what remains of a fit does not show it.
 constexpr double kPoseSigma = 0.01;
-constexpr double kTurnSigma = 0.005;   // rad: the same, of its rotation
-constexpr double kGyroBias = 0.01;     // rad/s, of a calibrated sensor
+constexpr double kTurnSigma = 0.005;  // rad: the same, of its rotation
+constexpr double kGyroBias = 0.01;    // rad/s, of a calibrated sensor
 constexpr double kConstant = 0.2;  // m/s^2: bias of the accelerometer, and gravity through a tilt of a degree
 constexpr double kSameScale = 0.1;  // a tenth is within what maps from pictures have
 constexpr double kTogether = 6;     // steps that err together: neighbours see the same part of the map

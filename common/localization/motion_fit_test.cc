@@ -50,7 +50,8 @@ TEST(MotionFitTest, TellsHowLargeAMapIs) {
   }
 }
 
-// As on real recordings: a narrow view takes a centimetre sideways for a turn, the farther the more it has moved.
+// As on real recordings: a narrow view takes a centimetre sideways for a turn, the farther the more it has
+// moved.
 TEST(MotionFitTest, ErrorsThatGoWithTheMotionAreNoWrongSize) {
   for (const double seconds : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0}) {
     Recorded recorded(1, seconds, 0.1);
