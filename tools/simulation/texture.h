@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -54,7 +55,7 @@ class Texture {
     y = y < 0 ? 0 : (y > max_y ? max_y : y);
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y), stride = level.width + 1;
     const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-    const float* p = level.data.data() + y0 * stride + x0;
+    const float* p = level.data.data() + static_cast<std::ptrdiff_t>(y0) * stride + x0;
     const float a = p[0] + fx * (p[1] - p[0]), b = p[stride] + fx * (p[stride + 1] - p[stride]);
     return a + fy * (b - a);
   }
