@@ -9,15 +9,12 @@
 
 #include "common/config/config_error.h"
 #include "common/files/table_reader.h"
+#include "common/text/words.h"
 
 namespace evit {
 namespace {
 
 using Yaml = std::map<std::string, std::vector<std::string>>;
-
-bool EndsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 // "FILE#CAMERA,IMU" taken apart.
 struct Parts {

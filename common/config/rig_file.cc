@@ -162,8 +162,6 @@ Rig LoadRig(const std::string& path) {
   return rig;
 }
 
-Camera LoadCamera(const std::string& path) { return LoadMountedCamera(path).camera; }
-
 MountedCamera LoadMountedCamera(const std::string& path) {
   const RigText text(path, true);
   text.Require(text.message.has_camera(), "camera",

@@ -12,11 +12,8 @@ namespace evit {
 Rig LoadRig(const std::string& path);
 
 /// The camera of a rig file, or of a file that holds nothing but its `camera` block (then time_offset_us,
-/// which is about an IMU, may be missing). Throws ConfigError as LoadRig does.
-Camera LoadCamera(const std::string& path);
-
-/// The same with where it sits and how its clock goes, as far as the file has them (blocks T_body_camera and
-/// T_marker_body, as in a rig file).
+/// which is about an IMU, may be missing), with where it sits and how its clock goes, as far as the file has
+/// them (blocks T_body_camera and T_marker_body, as in a rig file). Throws ConfigError as LoadRig does.
 MountedCamera LoadMountedCamera(const std::string& path);
 
 /// Writes a file that LoadMountedCamera reads back exactly. `comment`: one or more lines without '#'. Throws

@@ -75,10 +75,6 @@ bool ParseDecimalTime(std::string_view text, TimeUnit unit, Utime* time) {
   return true;
 }
 
-bool ParseDecimalSeconds(std::string_view text, Utime* time) {
-  return ParseDecimalTime(text, TimeUnit::kSeconds, time);
-}
-
 std::optional<TimeUnit> UnitOfDate(std::string_view text) {
   Decimal number;
   if (!TakeApart(text, &number) || number.negative || number.n == 0) return {};

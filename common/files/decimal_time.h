@@ -16,9 +16,6 @@ enum class TimeUnit { kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
 /// the text is no finite number, or beyond any date.
 bool ParseDecimalTime(std::string_view text, TimeUnit unit, Utime* time);
 
-/// The same for seconds.
-bool ParseDecimalSeconds(std::string_view text, Utime* time);
-
 /// The unit of a time since 1970, from how many digits it has before the point: 10 (s), 13 (ms), 16 (us), 19
 /// (ns); nothing where it has another number of digits, e.g. because it counts from the start of a recording.
 std::optional<TimeUnit> UnitOfDate(std::string_view text);

@@ -11,7 +11,7 @@ namespace {
 TEST(DecimalTimeTest, EveryMicrosecondOfTodaysDatesSurvives) {
   for (Utime t = 1'642'661'138'836'530; t < 1'642'661'138'836'630; ++t) {
     Utime back = 0;
-    ASSERT_TRUE(ParseDecimalSeconds(DecimalSeconds(t), &back));
+    ASSERT_TRUE(ParseDecimalTime(DecimalSeconds(t), TimeUnit::kSeconds, &back));
     ASSERT_EQ(back, t);
   }
 }
@@ -19,7 +19,7 @@ TEST(DecimalTimeTest, EveryMicrosecondOfTodaysDatesSurvives) {
 TEST(DecimalTimeTest, Forms) {
   const auto parse = [](const std::string& text) {
     Utime t = 0;
-    EXPECT_TRUE(ParseDecimalSeconds(text, &t)) << text;
+    EXPECT_TRUE(ParseDecimalTime(text, TimeUnit::kSeconds, &t)) << text;
     return t;
   };
   EXPECT_EQ(parse("12"), 12'000'000);
@@ -33,7 +33,7 @@ TEST(DecimalTimeTest, Forms) {
   EXPECT_EQ(DecimalSeconds(-1'500'000), "-1.500000");
   for (const char* bad : {"", "-", ".", "1.2.3", "abc", "12s", "1234567890123", "nan"}) {
     Utime t = 0;
-    EXPECT_FALSE(ParseDecimalSeconds(bad, &t)) << bad;
+    EXPECT_FALSE(ParseDecimalTime(bad, TimeUnit::kSeconds, &t)) << bad;
   }
 }
 
@@ -47,12 +47,12 @@ TEST(DecimalTimeTest, EveryFormIsExact) {
         std::pair("0.000000000000000000000000000000000000000000000000001e45", Utime{1}),
         std::pair("3.5e1", Utime{35'000'000})}) {
     Utime t = -7;
-    EXPECT_TRUE(ParseDecimalSeconds(text, &t)) << text;
+    EXPECT_TRUE(ParseDecimalTime(text, TimeUnit::kSeconds, &t)) << text;
     EXPECT_EQ(t, micros) << text;
   }
   for (const char* text : {"", ".", "-", "1.2.3", "1e", "1e+", "e5", "1e99999", "1e20", "nan", "0x1", "1 "}) {
     Utime t = 0;
-    EXPECT_FALSE(ParseDecimalSeconds(text, &t)) << text;
+    EXPECT_FALSE(ParseDecimalTime(text, TimeUnit::kSeconds, &t)) << text;
   }
 }
 

@@ -1,25 +1,16 @@
 #include "common/files/pose_columns.h"
 
 #include <algorithm>
-#include <cctype>
 #include <initializer_list>
 #include <string>
 #include <vector>
+
+#include "common/text/words.h"
 
 namespace evit {
 namespace {
 
 constexpr std::size_t kNone = -1;  // no column
-
-std::string Lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-bool EndsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 bool IsTime(const std::string& name) {
   for (const char* known : {"t", "ts", "time", "timestamp", "stamp"})
@@ -59,7 +50,7 @@ PoseColumns PoseColumnsOf(const TableSample& sample) {
     if (*into == kNone) *into = column;
   };
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const std::string name = Lower(names[k].name);
+    const std::string name = LowerCase(names[k].name);
     if (name.empty()) continue;
     // The stamp of a message says more than the time at which it was recorded.
     if (EndsWith(name, "header.stamp")) found.time = k;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -14,6 +13,7 @@
 #include "common/files/whole_file.h"
 #include "common/map/map_attributes.h"
 #include "common/map/map_formats.h"
+#include "common/text/words.h"
 
 namespace evit {
 
@@ -22,11 +22,6 @@ namespace {
 constexpr float kFarAway = 1e5;  // m: a float has steps of 8 mm there
 
 }  // namespace
-
-std::string LowerCase(std::string word) {
-  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return word;
-}
 
 bool HeaderLine(const std::string& bytes, std::size_t* at, std::string* line) {
   const std::size_t first = bytes.find_first_of("\r\n");

@@ -33,7 +33,4 @@ bool DecompressLzf(const std::uint8_t* data, std::size_t n, std::uint8_t* out, s
 /// Whether a file begins as a PLY does.
 bool IsPly(const std::string& bytes);
 
-/// The letters of a word in lower case.
-std::string LowerCase(std::string word);
-
 }  // namespace evit

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/map/map_formats.h"
+#include "common/text/words.h"
 
 namespace evit {
 namespace {

@@ -29,9 +29,9 @@ inline EventArray PaintedEvents(const PaintedScene& scene, const Camera& camera,
   for (int row = 0; row < camera.height; ++row) {
     for (int column = 0; column < camera.width; ++column) {
       for (int k = 0; k < kRays * kRays; ++k) {
+        const int across = k % kRays, down = k / kRays;
         Eigen::Vector3d ray;
-        camera.Unproject({column + (k % kRays + 0.5) / kRays - 0.5, row + (k / kRays + 0.5) / kRays - 0.5},
-                         &ray);
+        camera.Unproject({column + (across + 0.5) / kRays - 0.5, row + (down + 0.5) / kRays - 0.5}, &ray);
         rays.push_back(ray);
       }
     }

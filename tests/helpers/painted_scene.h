@@ -62,11 +62,12 @@ class PaintedScene {
       for (int column = 0; column < camera.width; ++column) {
         double sum = 0;
         for (int k = 0; k < 9; ++k) {
+          const int across = k % 3 - 1, down = k / 3 - 1;
           Eigen::Vector3d ray;
-          camera.Unproject({column + (k % 3 - 1) / 3.0, row + (k / 3 - 1) / 3.0}, &ray);
+          camera.Unproject({column + across / 3.0, row + down / 3.0}, &ray);
           sum += Grey(T_map_camera.p, T_map_camera.q * ray);
         }
-        picture.at<std::uint8_t>(row, column) = static_cast<std::uint8_t>(sum / 9 + 0.5);
+        picture.at<std::uint8_t>(row, column) = static_cast<std::uint8_t>(std::lround(sum / 9));
       }
     }
     return picture;

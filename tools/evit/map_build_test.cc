@@ -201,7 +201,7 @@ TEST_F(MapOfEventsTest, RefusesAnotherClockACameraAtRestAndWhatIsMissing) {
 
 TEST_F(MapBuildTest, PosesOfAMarkerInAWorldOfItsOwnBecomeTheCameras) {
   MountedCamera mounted;
-  mounted.camera = LoadCamera(File("camera.textproto"));
+  mounted.camera = LoadMountedCamera(File("camera.textproto")).camera;
   mounted.T_body_camera = SE3(ExpSO3({1.1, -0.4, 0.3}), {0.1, -0.05, 0.02});
   mounted.T_marker_body = SE3(ExpSO3({-0.2, 0.5, 1.3}), {0.02, 0.03, -0.04});
   mounted.time_offset = 8'000;

@@ -4,18 +4,11 @@
 #include <stdexcept>
 
 #include "common/bus/codec.h"
+#include "common/text/words.h"
 #include "common/wire/event_wire.h"
 #include "common/wire/imu_wire.h"
 
 namespace evit::locate {
-namespace {
-
-bool EndsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-}  // namespace
-
 RecordedStreams::RecordedStreams(const std::string& path) : log_(path) {
   std::vector<std::uint8_t> bytes;
   for (std::size_t k = 0; k < log_.entries().size(); ++k) {

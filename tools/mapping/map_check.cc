@@ -11,16 +11,13 @@
 #include "common/bus/log_file.h"
 #include "common/config/rig_file.h"
 #include "common/map/map_file.h"
+#include "common/text/words.h"
 #include "common/wire/event_wire.h"
 #include "common/wire/imu_wire.h"
 #include "tools/mapping/check_findings.h"
 
 namespace evit::mapping {
 namespace {
-
-bool EndsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 // Reads the log once: events into the views, and where gravity points in the map.
 class LogPass {

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "common/text/format_text.h"
+#include "common/text/words.h"
 #include "tools/pictures/consistency_plot.h"
 #include "tools/pictures/run_plot.h"
 #include "tools/run/report_writer.h"
@@ -99,10 +100,6 @@ std::string Title(const RunJob& job, const report::Report& report) {
   return name + text;
 }
 
-bool Ends(const std::string& name, const std::string& end) {
-  return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
-}
-
 // The sum of the services' counters of which `is` says so.
 template <typename Is>
 double Sum(const report::Report& report, const Is& is) {
@@ -119,7 +116,7 @@ double Sum(const report::Report& report, const Is& is) {
 std::string LossText(const report::Report& report) {
   if (report.lossless()) return "lossless: every message arrived";
   const double lost = Sum(report, [](const std::string& name) {
-    return name != "mode.lost" && (Ends(name, ".lost") || Ends(name, ".dropped"));
+    return name != "mode.lost" && (EndsWith(name, ".lost") || EndsWith(name, ".dropped"));
   });
   return FormatText("%.0f messages lost", lost);
 }

@@ -40,6 +40,7 @@ void ClockFit::Solve() {
     if (std::abs(slope) < kMaxDrift) slope_ = slope;
   }
   std::vector<Utime> rest;
+  rest.reserve(points.size());
   for (const auto& [second, offset] : points)
     rest.push_back(offset - std::llround(slope_ * static_cast<double>(second * kMicrosPerSecond - origin_)));
   if (points.size() <= kLineFrom) {

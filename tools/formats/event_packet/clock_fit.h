@@ -15,7 +15,6 @@ class ClockFit {
   /// Call after the last Add and before ToHost.
   void Solve();
   Utime ToHost(Utime sensor) const;
-  double drift_ppm() const { return 1e6 * slope_; }
 
  private:
   std::map<Utime, Utime> offsets_;  // second of the sensor's clock to its smallest offset (host - sensor), us

@@ -1,14 +1,11 @@
 #include <algorithm>
 #include <map>
 
+#include "common/text/words.h"
 #include "tools/formats/hdf5/h5_events.h"
 
 namespace evit::formats {
 namespace {
-
-bool EndsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 // The dataset of a group with one of these names; empty: none.
 std::string AnyOf(const std::map<std::string, std::string>& members, const std::vector<std::string>& names) {

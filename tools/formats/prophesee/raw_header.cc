@@ -7,16 +7,12 @@
 #include <cstring>
 #include <sstream>
 
+#include "common/text/words.h"
+
 namespace evit::formats {
 namespace {
 
 constexpr std::size_t kMaxHeader = 1 << 16;  // bytes
-
-std::string Lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 bool Plausible(int width, int height) {
   return width >= 16 && height >= 16 && width <= 8192 && height <= 8192;
@@ -39,10 +35,10 @@ RawHeader::RawHeader(ByteFile* file) {
     line >> key;
     std::getline(line >> std::ws, value);
     while (!value.empty() && std::isspace(static_cast<unsigned char>(value.back())) != 0) value.pop_back();
-    if (Lower(key) == "end") return;
-    values.emplace(Lower(key), value);
+    if (LowerCase(key) == "end") return;
+    values.emplace(LowerCase(key), value);
     if (values.size() > 1000) file->Fail("has more than 1000 header lines: is it a RAW or DAT file?");
-    if (Lower(key) != "format") continue;
+    if (LowerCase(key) != "format") continue;
     std::istringstream parts(value);
     std::string part;
     std::getline(parts, part, ';');
@@ -50,7 +46,7 @@ RawHeader::RawHeader(ByteFile* file) {
     while (std::getline(parts, part, ';')) {
       const std::size_t equal = part.find('=');
       if (equal != std::string::npos)
-        values["format." + Lower(part.substr(0, equal))] = part.substr(equal + 1);
+        values["format." + LowerCase(part.substr(0, equal))] = part.substr(equal + 1);
     }
   }
 }
@@ -71,8 +67,9 @@ void SensorSize(const RawHeader& header, int* width, int* height) {
   if (std::sscanf(header.Get("geometry").c_str(), "%dx%d", width, height) == 2 && Plausible(*width, *height))
     return;
   // Files of earlier versions name only the plug-in that wrote them, or the sensor.
-  const std::string names = Lower(header.Get("plugin_name") + " " + header.Get("camera_integrator_name") +
-                                  " " + header.Get("sensor_name") + " " + header.Get("sensor_generation"));
+  const std::string names =
+      LowerCase(header.Get("plugin_name") + " " + header.Get("camera_integrator_name") + " " +
+                header.Get("sensor_name") + " " + header.Get("sensor_generation"));
   *width = *height = 0;
   const struct {
     const char* name;

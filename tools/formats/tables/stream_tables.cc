@@ -1,7 +1,6 @@
 #include "tools/formats/tables/stream_tables.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
@@ -9,6 +8,7 @@
 #include "common/files/pose_columns.h"
 #include "common/files/table_reader.h"
 #include "common/files/table_sample.h"
+#include "common/text/words.h"
 
 namespace evit::formats {
 namespace {
@@ -16,12 +16,6 @@ namespace {
 constexpr double kSlowestImu = 0.1, kSlowestPose = 5;  // s between two rows
 constexpr char kImuLayout[] = "t gx gy gz ax ay az (or ax ay az gx gy gz)";
 constexpr char kPoseLayout[] = "t x y z qx qy qz qw";
-
-std::string Lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 bool NamesAny(const std::string& name, std::initializer_list<const char*> parts) {
   return std::any_of(parts.begin(), parts.end(),
@@ -35,9 +29,9 @@ std::vector<std::string> ColumnNames(const TableSample& sample) {
   for (const std::string& word : sample.head) {
     const bool opens = word.front() == '[' || word.front() == '(';
     if ((opens || in_unit) && !names.empty()) {
-      names.back() += Lower(word);
+      names.back() += LowerCase(word);
     } else {
-      names.push_back(Lower(word));
+      names.push_back(LowerCase(word));
     }
     in_unit = (in_unit || opens) && word.back() != ']' && word.back() != ')';
   }
