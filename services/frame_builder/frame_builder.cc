@@ -171,6 +171,7 @@ void FrameBuilder::ReportCounters() {
   status_.Counter("imu.late") = c.imu_late;
   status_.Counter("imu.invalid") = c.imu_invalid;
   status_.Counter("clock_resets") = c.resets;
+  status_.Counter("inbox.queued") = static_cast<std::int64_t>(inbox_.size());
 }
 
 void FrameBuilder::Tick() {

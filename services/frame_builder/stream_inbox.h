@@ -35,6 +35,8 @@ class StreamInbox {
   void CountInvalidImu() { imu_.CountInvalid(); }
 
   std::optional<Item> Take();
+  /// Messages that wait.
+  std::size_t size() const { return items_.size(); }
 
   /// The sender says its streams have ended.
   void End(const stream_end_t& end);

@@ -53,6 +53,7 @@ class KeyframeQueue {
   void DropSuperseded();
 
   bool empty() const { return keyframes_.empty(); }
+  std::size_t size() const { return keyframes_.size(); }
   const QueuedKeyframe& front() const { return keyframes_.front(); }
   QueuedKeyframe Pop();
   /// Late because of a restart, not because of the tracker's load.

@@ -237,6 +237,7 @@ void WindowOptimizer::Tick() {
   if (map_.ServerTimedOut(Clock::now())) {
     status_.SetState("waiting", "map_server does not answer: is it running, on the same URL and prefix?");
   }
+  status_.Counter("KEYFRAME.queued") = static_cast<std::int64_t>(queue_.size());
   status_.Tick();
 }
 

@@ -25,6 +25,7 @@ class LatencyMeter {
   /// ms from `t` to `now`; negative where data do not come in real time (lossless, another speed, a jump).
   double MsSince(Utime t, std::int64_t now) const {
     if (before_ == kUnknown || current_ == kUnknown) return -1;
+    if (now - begun_ > 2 * kBucketUs) return -1;  // no data come any more
     if (std::max(before_, current_) - std::min(before_, current_) > kSameUs) return -1;
     return 1e-3 * static_cast<double>(std::max<std::int64_t>(0, now - t - std::min(before_, current_)));
   }

@@ -47,5 +47,12 @@ TEST(LatencyMeter, SaysNothingAfterAJumpOfTheRecordingAndThenAgain) {
   EXPECT_NEAR(meter.MsSince(kSensor - 60'000'000 + 4'500'000, kHost + 3'000'000 + 4'520'000), 20, 1e-9);
 }
 
+TEST(LatencyMeter, KnowsNothingOnceNoDataCome) {
+  LatencyMeter meter;
+  Feed(&meter, 4, 1, [](int) { return 100; });
+  EXPECT_GE(meter.MsSince(kSensor + 4'000'000, kHost + 4'500'000), 0);
+  EXPECT_LT(meter.MsSince(kSensor + 4'000'000, kHost + 9'000'000), 0);
+}
+
 }  // namespace
 }  // namespace evit::monitor

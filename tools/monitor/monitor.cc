@@ -41,7 +41,7 @@ void Monitor::Watch(Bus* bus) {
   ShowFiles(options_.map, options_.rig);
   watch_->AddListener(&page_);
   watch_->AddListener(&foxglove_);
-  page_.SetMap(watch_->map());
+  page_.SetPipeline(watch_->map(), &watch_->latency());
   foxglove_.SetMap(watch_->map());
   sheriff_->Discover();
   waiting_.clear();

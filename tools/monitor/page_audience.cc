@@ -10,13 +10,16 @@
 namespace evit::monitor {
 namespace {
 
-constexpr std::int64_t kPosePeriodUs = 15'000;  // no screen shows more
-constexpr std::size_t kMapChunk = 16'384;       // points, 200 kB
+constexpr std::int64_t kPosePeriodUs = 15'000;        // no screen shows more
+constexpr std::size_t kMapChunk = 16'384;             // points, 200 kB
+constexpr std::int64_t kPicturePeriodUs = 1'000'000;  // without viewers: for one who comes
 
 }  // namespace
 
 void PageAudience::Connected(ClientId client, const std::string& /*protocol*/) {
   Viewer& viewer = viewers_[client];
+  if (FramePtr history = history_.Encode()) viewer.queue.Append(std::move(history));
+  if (picture_) viewer.queue.ReplacePicture(picture_);
   for (const auto& [name, frame] : newest_) viewer.queue.Replace(name, frame);
   wake_(client);
 }
@@ -39,7 +42,7 @@ void PageAudience::Received(ClientId client, std::string_view message) {
   try {
     const PageOrder order = ParsePageOrder(message);
     if (!order.changes_pipeline()) {
-      viewer.queue.Acknowledge();
+      TakeAcknowledgement(order.drawn_utime, &viewer);
       wake_(client);
       return;
     }
@@ -49,6 +52,13 @@ void PageAudience::Received(ClientId client, std::string_view message) {
   }
   viewer.queue.Replace("answer", TextFrame(answer));
   wake_(client);
+}
+
+void PageAudience::TakeAcknowledgement(double drawn_utime, Viewer* viewer) const {
+  viewer->queue.Acknowledge();
+  if (latency_ == nullptr || drawn_utime == 0) return;
+  const double ms = latency_->MsSince(static_cast<Utime>(drawn_utime), HostTime());
+  if (ms >= 0) viewer->queue.Replace("drawn", TextFrame(DrawnText(ms)));
 }
 
 FramePtr PageAudience::NextOfMap(Viewer* viewer) const {
@@ -62,7 +72,7 @@ FramePtr PageAudience::NextOfMap(Viewer* viewer) const {
   const std::size_t first = viewer->map_sent;
   const std::size_t n = std::min(kMapChunk, map_->points().size() - first);
   viewer->map_sent += n;
-  return EncodeMap(viewer->generation, map_->points(), first, n);
+  return EncodeMap(*map_, first, n);
 }
 
 FramePtr PageAudience::Next(ClientId client) {
@@ -82,7 +92,9 @@ void PageAudience::OnTruth(const body_pose_t& pose) {
   const std::int64_t now = HostTime();
   if (now - truth_sent_ < kPosePeriodUs) return;
   truth_sent_ = now;
-  Replace("truth", EncodePose(FrameKind::kTruth, pose));
+  const FramePtr frame = EncodePose(FrameKind::kTruth, pose);
+  history_.AddTruth(pose, frame);
+  Replace("truth", frame);
 }
 
 void PageAudience::OnMode(const tracker_mode_t& mode) {
@@ -95,8 +107,8 @@ void PageAudience::OnMode(const tracker_mode_t& mode) {
 void PageAudience::OnPlaces(const places_t& places) { Replace("places", TextFrame(PlacesText(places))); }
 
 void PageAudience::OnWindow(const window_state_t& window, double latency_ms) {
-  if (viewers_.empty()) return;
   const FramePtr frame = EncodeWindow(window, latency_ms);
+  history_.AddWindow(window, frame);
   for (auto& [client, viewer] : viewers_) {
     viewer.queue.Append(frame);
     wake_(client);
@@ -104,14 +116,16 @@ void PageAudience::OnWindow(const window_state_t& window, double latency_ms) {
 }
 
 bool PageAudience::WantsPicture() const {
+  if (viewers_.empty()) return HostTime() - pictured_ >= kPicturePeriodUs;
   return std::any_of(viewers_.begin(), viewers_.end(),
                      [](const auto& viewer) { return viewer.second.queue.wants_picture(); });
 }
 
 void PageAudience::OnPicture(const keyframe_t& keyframe, const std::vector<OverlayPoint>& points) {
-  const FramePtr frame = EncodePicture(keyframe, points);
+  pictured_ = HostTime();
+  picture_ = EncodePicture(keyframe, points);
   for (auto& [client, viewer] : viewers_) {
-    viewer.queue.ReplacePicture(frame);
+    viewer.queue.ReplacePicture(picture_);
     wake_(client);
   }
 }

@@ -8,12 +8,14 @@
 
 #include "tools/monitor/page_order.h"
 #include "tools/monitor/pipeline_watch.h"
+#include "tools/monitor/run_history.h"
 #include "tools/monitor/viewer_queue.h"
 #include "tools/monitor/web_server.h"
 
 namespace evit::monitor {
 
-/// The pages that are open: what the pipeline does goes into a queue for each, their orders to `give`.
+/// The pages that are open: what the pipeline does goes into a queue for each, their orders to `give`. A page
+/// that is opened later, even after the end, gets the last minute and the newest picture.
 class PageAudience : public WebClients, public PipelineListener {
  public:
   static constexpr char kProtocol[] = "evit-monitor.v1";
@@ -23,8 +25,11 @@ class PageAudience : public WebClients, public PipelineListener {
 
   PageAudience(Wake wake, Give give) : wake_(std::move(wake)), give_(std::move(give)) {}
 
-  /// The map that viewers get, piece by piece; null: none. It must outlive this.
-  void SetMap(const MapStore* map) { map_ = map; }
+  /// The map that viewers get, piece by piece, and what says how late pictures are. Both must outlive this.
+  void SetPipeline(const MapStore* map, const LatencyMeter* latency) {
+    map_ = map;
+    latency_ = latency;
+  }
   /// To all; who comes later gets the newest.
   void Publish(const std::string& name, const std::string& text);
   int size() const { return static_cast<int>(viewers_.size()); }
@@ -50,13 +55,18 @@ class PageAudience : public WebClients, public PipelineListener {
   };
   void Replace(const std::string& name, const FramePtr& frame);
   FramePtr NextOfMap(Viewer* viewer) const;
+  void TakeAcknowledgement(double drawn_utime, Viewer* viewer) const;
 
   Wake wake_;
   Give give_;
   std::map<ClientId, Viewer> viewers_;
   const MapStore* map_ = nullptr;
-  std::map<std::string, FramePtr> newest_;       // by name: the first that a new viewer gets
+  const LatencyMeter* latency_ = nullptr;
+  std::map<std::string, FramePtr> newest_;  // by name: what a new viewer gets first, after the history
+  RunHistory history_;
+  FramePtr picture_;                             // the newest
   std::int64_t pose_sent_ = 0, truth_sent_ = 0;  // us, host clock
+  std::int64_t pictured_ = 0;                    // us, host clock
   std::string mode_text_;
 };
 

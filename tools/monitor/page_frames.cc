@@ -72,14 +72,15 @@ FramePtr EncodePicture(const keyframe_t& keyframe, const std::vector<OverlayPoin
   return frame;
 }
 
-FramePtr EncodeMap(std::uint32_t generation, const std::vector<Eigen::Vector3f>& points, std::size_t first,
-                   std::size_t n) {
+FramePtr EncodeMap(const MapStore& map, std::size_t first, std::size_t n) {
   const auto frame = Begin(FrameKind::kMap);
-  frame->Append(generation);
+  frame->Reserve(20 + 12 * n);
+  frame->Append(map.generation());
   frame->Append(static_cast<std::uint32_t>(first));
   frame->Append(static_cast<std::uint32_t>(n));
+  frame->Append(static_cast<std::uint32_t>(map.capacity()));
   static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
-  if (n > 0) frame->Append(points[first].data(), 3 * n);
+  if (n > 0) frame->Append(map.points()[first].data(), 3 * n);
   return frame;
 }
 

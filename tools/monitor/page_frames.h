@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
@@ -8,6 +7,7 @@
 #include "evit/keyframe_t.hpp"
 #include "evit/window_state_t.hpp"
 #include "tools/monitor/frame.h"
+#include "tools/monitor/map_store.h"
 #include "tools/monitor/surface_overlay.h"
 
 /// Binary frames for the page, which reads them in page/src/frames.ts: little-endian, the kind in the first
@@ -15,7 +15,14 @@
 /// microseconds as doubles, exact up to 2^53.
 namespace evit::monitor {
 
-enum class FrameKind : std::uint32_t { kPose = 1, kTruth = 2, kWindow = 3, kPicture = 4, kMap = 5 };
+enum class FrameKind : std::uint32_t {
+  kPose = 1,
+  kTruth = 2,
+  kWindow = 3,
+  kPicture = 4,
+  kMap = 5,
+  kHistory = 6
+};
 
 /// kind u32, 0 u32, utime f64, position f32[3], orientation f32[4] (x y z w), velocity f32[3].
 FramePtr EncodePose(FrameKind kind, const body_pose_t& pose);
@@ -30,8 +37,8 @@ FramePtr EncodeWindow(const window_state_t& window, double latency_ms);
 /// surface u8[height][width].
 FramePtr EncodePicture(const keyframe_t& keyframe, const std::vector<OverlayPoint>& points);
 
-/// kind u32, generation u32 (a new one: forget the old map), first u32, n u32, xyz f32[n][3] (m, map frame).
-FramePtr EncodeMap(std::uint32_t generation, const std::vector<Eigen::Vector3f>& points, std::size_t first,
-                   std::size_t n);
+/// kind u32, generation u32 (a new one: forget the old map), first u32, n u32, capacity u32 (as many points
+/// come at most), xyz f32[n][3] (m, map frame).
+FramePtr EncodeMap(const MapStore& map, std::size_t first, std::size_t n);
 
 }  // namespace evit::monitor

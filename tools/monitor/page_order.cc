@@ -12,6 +12,7 @@ using nlohmann::json;
 constexpr std::size_t kLongest = 4096;  // bytes
 constexpr double kFarthest = 1e5;       // m
 constexpr double kFastest = 100;        // times real time
+constexpr double kLatestUs = 9e15;      // exact as a double
 
 [[noreturn]] void Refuse(const std::string& why) { throw std::runtime_error("order refused: " + why); }
 
@@ -59,6 +60,9 @@ PageOrder ParsePageOrder(std::string_view text) {
   PageOrder result;
   if (name == "drawn") {
     result.kind = PageOrder::Kind::kAcknowledge;
+    if (order.contains("utime")) {
+      result.drawn_utime = Number(order["utime"], "utime", -kLatestUs, kLatestUs);
+    }
   } else if (name == "restart") {
     result.kind = PageOrder::Kind::kRestart;
     result.command = ReadCommand(order);

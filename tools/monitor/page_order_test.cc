@@ -26,6 +26,7 @@ TEST(PageOrder, KnownOrdersAreRead) {
   EXPECT_EQ(ParsePageOrder(R"({"order":"seek","share":0.25})").seek_share, 0.25);
   EXPECT_EQ(ParsePageOrder(R"({"order":"speed","speed":2})").speed, 2);
   EXPECT_FALSE(ParsePageOrder(R"({"order":"drawn"})").changes_pipeline());
+  EXPECT_EQ(ParsePageOrder(R"({"order":"drawn","utime":1642516764984000})").drawn_utime, 1642516764984000);
 }
 
 TEST(PageOrder, AHintIsAPose) {

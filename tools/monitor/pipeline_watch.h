@@ -49,6 +49,7 @@ class PipelineWatch {
   const CameraMount& mount() const { return mount_; }
   MapStore* map() { return &map_; }
   const MapStore& map() const { return map_; }
+  const LatencyMeter& latency() const { return latency_; }
 
   /// Call about once a second.
   void UpdateRates() { channels_.UpdateRates(ChannelWatch::Clock::now()); }

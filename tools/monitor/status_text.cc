@@ -107,6 +107,8 @@ std::string PlacesText(const places_t& places) {
   return Dump({{"type", "places"}, {"places", list}});
 }
 
+std::string DrawnText(double ms) { return Dump({{"type", "drawn"}, {"picture_ms", ms}}); }
+
 std::string AnswerText(bool ok, const std::string& text) {
   return Dump({{"type", "answer"}, {"ok", ok}, {"text", text}});
 }

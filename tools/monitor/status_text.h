@@ -25,6 +25,9 @@ std::string ModeText(const tracker_mode_t& mode);
 /// "type": "places": candidates of a search for the start, best first, at most 32.
 std::string PlacesText(const places_t& places);
 
+/// "type": "drawn": `ms` after its instant a picture was on the viewer's screen, and the viewer had said so.
+std::string DrawnText(double ms);
+
 /// "type": "answer": to an order.
 std::string AnswerText(bool ok, const std::string& text);
 

@@ -1,7 +1,10 @@
 import * as THREE from "three";
+import { Lines } from "./lines";
 import type { CameraInfo } from "./status";
 
 const DEPTH_M = 0.35; // of the frustum drawn
+const AXIS_M = 0.15;
+const AXES = [0xd55e00, 0x009e73, 0x2f8fd0]; // x, y, z
 
 export function mountOf(camera: CameraInfo | null): THREE.Matrix4 | null {
   if (!camera?.position || !camera.orientation) return null;
@@ -13,59 +16,77 @@ export function mountOf(camera: CameraInfo | null): THREE.Matrix4 | null {
   );
 }
 
-// The camera's field of view as lines, in the camera frame: x right, y down, z forward.
-export function frustumLines(camera: CameraInfo | null): THREE.BufferGeometry {
+// The camera's field of view in the camera frame: x right, y down, z forward. Eye, four corners, and a mark that says where up is.
+function frustum(camera: CameraInfo | null) {
   const { width, height, fx, fy, cx, cy } = camera ?? { width: 640, height: 480, fx: 500, fy: 500, cx: 320, cy: 240 };
-  const corner = (u: number, v: number) =>
-    new THREE.Vector3(((u - cx) / fx) * DEPTH_M, ((v - cy) / fy) * DEPTH_M, DEPTH_M);
-  const [a, b, c, d] = [corner(0, 0), corner(width, 0), corner(width, height), corner(0, height)];
+  const at = (u: number, v: number) => new THREE.Vector3(((u - cx) / fx) * DEPTH_M, ((v - cy) / fy) * DEPTH_M, DEPTH_M);
   const eye = new THREE.Vector3();
-  const up = corner(width / 2, -0.25 * height);
-  const lines = [eye, a, eye, b, eye, c, eye, d, a, b, b, c, c, d, d, a, corner(0.35 * width, 0), up, up, corner(0.65 * width, 0)];
-  return new THREE.BufferGeometry().setFromPoints(lines);
+  const [a, b, c, d] = [at(0, 0), at(width, 0), at(width, height), at(0, height)];
+  const up = at(width / 2, -0.25 * height);
+  const lines = [eye, a, eye, b, eye, c, eye, d, a, b, b, c, c, d, d, a, at(0.35 * width, 0), up, up, at(0.65 * width, 0)];
+  return { lines, faces: [eye, a, b, eye, b, c, eye, c, d, eye, d, a] };
 }
 
-// A body with its axes and its camera.
+export interface BodyStyle {
+  axes?: boolean;
+  filled?: boolean; // its field of view
+  width: number; // of its lines, CSS pixels
+}
+
+// A body with its camera's field of view.
 export class Body {
   readonly object = new THREE.Group();
-  private readonly frustum: THREE.LineSegments<THREE.BufferGeometry, THREE.LineBasicMaterial>;
+  private readonly mount = new THREE.Group();
+  private readonly lines: Lines;
+  private readonly fill: THREE.Mesh<THREE.BufferGeometry, THREE.MeshBasicMaterial>;
   private drawn = "";
 
-  constructor(axes: boolean) {
-    this.frustum = new THREE.LineSegments(frustumLines(null), new THREE.LineBasicMaterial());
-    this.frustum.matrixAutoUpdate = false;
-    this.object.add(this.frustum);
-    if (axes) {
-      const helper = new THREE.AxesHelper(0.15);
-      helper.setColors(new THREE.Color(0xd55e00), new THREE.Color(0x009e73), new THREE.Color(0x0072b2));
-      this.object.add(helper);
+  constructor(style: BodyStyle) {
+    this.lines = new Lines(10, style.width);
+    const material = new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.14, depthWrite: false, side: THREE.DoubleSide });
+    this.fill = new THREE.Mesh(new THREE.BufferGeometry(), material);
+    this.mount.matrixAutoUpdate = false;
+    this.mount.add(this.lines.object);
+    if (style.filled) this.mount.add(this.fill);
+    this.object.add(this.mount);
+    if (style.axes) {
+      AXES.forEach((color, i) => {
+        const axis = new Lines(1, 3);
+        axis.setPairs([new THREE.Vector3(), new THREE.Vector3().setComponent(i, AXIS_M)]);
+        axis.setColor(color);
+        this.object.add(axis.object);
+      });
     }
     this.object.traverse((part) => (part.frustumCulled = false));
     this.object.visible = false;
+    this.setCamera(null);
   }
 
   setColor(css: string): void {
-    this.frustum.material.color.set(css);
+    this.lines.setColor(css);
+    this.fill.material.color.set(css);
   }
 
   setOpacity(opacity: number): void {
-    this.frustum.material.opacity = opacity;
-    this.frustum.material.transparent = opacity < 1;
+    this.lines.setOpacity(opacity);
   }
 
   dispose(): void {
-    this.frustum.geometry.dispose();
-    this.frustum.material.dispose();
+    this.lines.dispose();
+    this.fill.geometry.dispose();
+    this.fill.material.dispose();
   }
 
   setCamera(camera: CameraInfo | null): void {
     const text = JSON.stringify(camera);
     if (text === this.drawn) return;
     this.drawn = text;
-    this.frustum.geometry.dispose();
-    this.frustum.geometry = frustumLines(camera);
-    this.frustum.matrix.copy(mountOf(camera) ?? new THREE.Matrix4());
-    this.frustum.matrixWorldNeedsUpdate = true;
+    const { lines, faces } = frustum(camera);
+    this.lines.setPairs(lines);
+    this.fill.geometry.dispose();
+    this.fill.geometry = new THREE.BufferGeometry().setFromPoints(faces);
+    this.mount.matrix.copy(mountOf(camera) ?? new THREE.Matrix4());
+    this.mount.matrixWorldNeedsUpdate = true;
   }
 
   place(position: number[], orientation: number[]): void {

@@ -1,16 +1,17 @@
 import { readFrame, type FrameHandler } from "./frames";
-import type { Answer, Mode, Places, Status, Text } from "./status";
+import type { Answer, Drawn, Mode, Places, Status, Text } from "./status";
 
 export interface Handler extends FrameHandler {
   status(status: Status): void;
   mode(mode: Mode): void;
   answer(answer: Answer): void;
   places(places: Places): void;
+  drawn(drawn: Drawn): void;
   connected(yes: boolean): void;
 }
 
 export type Order =
-  | { order: "drawn" }
+  | { order: "drawn"; utime: number }
   | { order: "restart"; command: string }
   | { order: "pause" | "resume" }
   | { order: "seek"; share: number }
@@ -52,5 +53,6 @@ export class Connection {
     else if (text.type === "mode") this.handler.mode(text);
     else if (text.type === "places") this.handler.places(text);
     else if (text.type === "answer") this.handler.answer(text);
+    else if (text.type === "drawn") this.handler.drawn(text);
   }
 }

@@ -9,6 +9,19 @@ export function setText(id: string, text: string): void {
   if (to.textContent !== text) to.textContent = text;
 }
 
+// The same, with `commands` set as such.
+export function setMarked(id: string, text: string): void {
+  const to = element(id);
+  if (to.dataset.shown === text) return;
+  to.dataset.shown = text;
+  const parts = text.split("`").map((part, i) => {
+    const piece = document.createElement(i % 2 ? "code" : "span");
+    piece.textContent = part;
+    return piece;
+  });
+  to.replaceChildren(...parts);
+}
+
 // Colours as the style sheet has them, which knows light and dark.
 export function color(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();

@@ -6,6 +6,7 @@ export const enum FrameKind {
   Window = 3,
   Picture = 4,
   Map = 5,
+  History = 6,
 }
 
 export interface Pose {
@@ -42,6 +43,7 @@ export interface Picture {
 export interface MapPiece {
   generation: number;
   first: number;
+  capacity: number; // as many points come at most
   xyz: Float32Array;
 }
 
@@ -69,7 +71,7 @@ function readWindow(v: DataView): WindowState {
     mode: v.getUint32(4, true),
     gyroBias: triple(v, 56),
     accelBias: triple(v, 68),
-    covariance: new Float32Array(v.buffer, 80, 36),
+    covariance: new Float32Array(v.buffer, v.byteOffset + 80, 36),
     inlierShare: figure(0),
     meanCost: figure(1),
     solveMs: figure(2),
@@ -99,7 +101,27 @@ function readMap(v: DataView): MapPiece {
   return {
     generation: v.getUint32(4, true),
     first: v.getUint32(8, true),
-    xyz: new Float32Array(v.buffer, 16, 3 * v.getUint32(12, true)),
+    capacity: v.getUint32(16, true),
+    xyz: new Float32Array(v.buffer, 20, 3 * v.getUint32(12, true)),
+  };
+}
+
+// What happened before the page was opened, oldest first.
+export interface History {
+  windows: WindowState[];
+  truths: Pose[];
+}
+
+const HEAD = 16; // bytes
+const WINDOW = 248;
+const POSE = 56;
+
+function readHistory(v: DataView): History {
+  const [windows, truths] = [v.getUint32(4, true), v.getUint32(8, true)];
+  const part = (at: number, size: number) => new DataView(v.buffer, at, size);
+  return {
+    windows: Array.from({ length: windows }, (_, i) => readWindow(part(HEAD + WINDOW * i, WINDOW))),
+    truths: Array.from({ length: truths }, (_, i) => readPose(part(HEAD + WINDOW * windows + POSE * i, POSE))),
   };
 }
 
@@ -109,6 +131,7 @@ export interface FrameHandler {
   window(state: WindowState): void;
   picture(picture: Picture): void;
   map(piece: MapPiece): void;
+  history(history: History): void;
 }
 
 export function readFrame(buffer: ArrayBuffer, to: FrameHandler): void {
@@ -124,6 +147,8 @@ export function readFrame(buffer: ArrayBuffer, to: FrameHandler): void {
       return to.picture(readPicture(view));
     case FrameKind.Map:
       return to.map(readMap(view));
+    case FrameKind.History:
+      return to.history(readHistory(view));
     default: // of a newer server
   }
 }

@@ -29,6 +29,7 @@ export class HintTool {
     private readonly view: MapView,
     private readonly canvas: HTMLCanvasElement,
     private readonly send: (order: Order) => void,
+    private readonly opened: () => void,
   ) {
     this.button.onclick = () => this.toggle(this.form.hidden);
     element("hint-cancel").onclick = () => this.toggle(false);
@@ -38,6 +39,9 @@ export class HintTool {
       event.preventDefault();
       this.submit();
     };
+    document.addEventListener("keydown", (event) => {
+      if (event.key === "Escape" && !this.form.hidden) this.toggle(false);
+    });
     this.form.oninput = () => this.drawGhost();
     canvas.addEventListener("pointerdown", (event) => this.press(event));
     canvas.addEventListener("pointermove", (event) => this.drag(event));
@@ -73,7 +77,10 @@ export class HintTool {
     this.panel.classList.toggle("hinting", on);
     this.view.reserveLeftButton(on);
     this.view.ghost.object.visible = false;
-    if (on) this.takeLast();
+    if (on) {
+      this.opened();
+      this.takeLast();
+    }
     this.view.invalidate();
   }
 

@@ -1,101 +1,156 @@
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
+import { Candidates } from "./candidates";
 import { Connection, type Handler } from "./connection";
-import { element, setText } from "./dom";
-import type { MapPiece, Picture, Pose, WindowState } from "./frames";
+import { color, element, isDark, onThemeChange, setMarked, setText } from "./dom";
+import { showEmptyMap } from "./empty_map";
+import type { History, MapPiece, Picture, Pose, WindowState } from "./frames";
+import { headline, SIGNS } from "./headline";
 import { HintTool } from "./hint_tool";
+import { Latencies } from "./latency";
 import { MapView, type View } from "./map_view";
 import { Plots } from "./plots";
 import { ReplayBar } from "./replay_bar";
 import { ServicesView } from "./services_view";
-import type { Answer, Mode, Places, Status } from "./status";
+import type { Answer, Drawn, Mode, Places, Status } from "./status";
 import { SurfaceView } from "./surface_view";
 
-const SIGNS = { tracking: "✓", bootstrapping: "…", lost: "✗", none: "" };
+const ANSWER_MS = 6000; // for so long an answer stays
 
 class Page implements Handler {
   private readonly canvas = element<HTMLCanvasElement>("map");
   private readonly mapView = new MapView(this.canvas);
-  private readonly surface = new SurfaceView();
   private readonly plots = new Plots();
-  private readonly connection = new Connection(this);
-  private readonly services = new ServicesView((command) => this.connection.send({ order: "restart", command }));
-  private readonly replay = new ReplayBar((order) => this.connection.send(order));
-  private readonly hint = new HintTool(this.mapView, this.canvas, (order) => this.connection.send(order));
+  private readonly pictureLatencies = new Latencies();
+  private readonly connection: Connection;
+  private readonly surface: SurfaceView;
+  private readonly services: ServicesView;
+  private readonly replay: ReplayBar;
+  private readonly hint: HintTool;
+  private readonly candidates: Candidates;
   private lastMode: Mode | null = null;
-  private waiting = "";
-  private online = false;
+  private lastStatus: Status | null = null;
+  private lastWindow: WindowState | null = null;
+  private online = true;
+  private pictured = false; // since the line is open
+  private answerTimer = 0;
 
   constructor() {
+    this.connection = new Connection(this);
+    const send = this.connection.send.bind(this.connection);
+    this.surface = new SurfaceView((picture) => this.drew(picture));
+    this.services = new ServicesView((command) => send({ order: "restart", command }));
+    this.replay = new ReplayBar(send);
+    this.hint = new HintTool(this.mapView, this.canvas, send, () => this.leaveCameraView());
+    this.candidates = new Candidates(this.mapView, send);
     for (const button of document.querySelectorAll<HTMLButtonElement>("#views button")) {
       button.onclick = () => this.setView(button.dataset.view as View);
     }
+    element("whole").onclick = () => {
+      this.setView("orbit");
+      this.mapView.frameMap();
+    };
     element("clear-trail").onclick = () => this.mapView.clearTrail();
     const enlarge = element<HTMLSelectElement>("enlarge");
-    enlarge.onchange = () => (this.mapView.enlarge = Number(enlarge.value));
-    const legend = [["accent", "estimate"], ["wait", "truth"], ["bad", "pose to give"], ["soft", "candidate of a search"]];
-    element("map-legend").innerHTML = legend
-      .map(([name, text]) => `<span><i style="background:var(--${name})"></i>${text}</span>`)
-      .join("");
+    enlarge.onchange = () => {
+      this.mapView.enlarge = Number(enlarge.value);
+      if (this.lastWindow) this.mapView.setWindow(this.lastWindow);
+    };
+    this.mapView.onLegend = () => this.showLegend();
+    onThemeChange(() => this.showLegend());
+    setInterval(() => this.showAbout(), 1000);
   }
 
   connected(yes: boolean): void {
     this.online = yes;
-    this.showMode();
+    this.pictured = false;
+    this.showHeadline();
   }
 
   pose(pose: Pose): void {
+    const first = !this.mapView.hasPose;
     this.mapView.setPose(pose);
     setText("position", pose.position.map((x) => x.toFixed(2).padStart(6)).join(" ") + " m");
     setText("speed", `${Math.hypot(...pose.velocity).toFixed(2)} m/s`);
+    if (first) this.showLegend();
   }
 
   truth(pose: Pose): void {
+    const first = !this.mapView.hasTruth;
     this.mapView.setTruth(pose);
+    if (first) this.showLegend();
   }
 
   window(state: WindowState): void {
+    this.lastWindow = state;
     this.mapView.setWindow(state);
     this.plots.add(state);
-    setText("latency", state.latencyMs < 0 ? `${state.totalMs.toFixed(0)} ms solve` : `${state.latencyMs.toFixed(0)} ms`);
+    const root = (...at: number[]) => Math.sqrt(at.reduce((sum, i) => sum + Math.max(0, state.covariance[7 * i]!), 0));
+    setText("sigma", `${(1000 * root(0, 1, 2)).toFixed(1)} mm  ${((root(3, 4, 5) * 180) / Math.PI).toFixed(2)}°`);
+    if (state.latencyMs < 0) this.pictureLatencies.clear();
+    this.showLatency();
+  }
+
+  history(history: History): void {
+    for (const pose of history.truths) this.mapView.addTruthPast(pose);
+    for (const state of history.windows) {
+      this.mapView.addPast(state);
+      this.plots.add(state);
+    }
+    const last = history.windows.at(-1);
+    if (last) this.window({ ...last, utime: last.utime + 1 });
   }
 
   picture(picture: Picture): void {
     this.surface.show(picture);
-    // Once it is on the screen: what cannot be drawn in time is not asked for. A hidden page draws nothing.
-    if (document.hidden) setTimeout(() => this.connection.send({ order: "drawn" }), 1000);
-    else requestAnimationFrame(() => this.connection.send({ order: "drawn" }));
+  }
+
+  drawn(drawn: Drawn): void {
+    this.pictureLatencies.add(drawn.picture_ms);
+    this.showLatency();
   }
 
   map(piece: MapPiece): void {
     this.mapView.addMap(piece);
+    this.showEmpty();
   }
 
   status(status: Status): void {
-    this.waiting = status.waiting;
-    this.showMode();
+    this.lastStatus = status;
     this.services.show(status);
     this.replay.show(status);
     this.mapView.setCamera(status.camera ?? null);
     this.hint.setCamera(status.camera ?? null, status.read_only);
-    const map = status.map;
-    const points = map ? `${map.known.toLocaleString("en")} of ${map.total.toLocaleString("en")} map points · ` : "";
-    setText("about", `${points}${status.viewers} viewer${status.viewers === 1 ? "" : "s"}${status.read_only ? " · read-only" : ""}`);
+    this.candidates.setCamera(status.camera ?? null, status.read_only);
+    const level = status.services.find((s) => s.name === "window_optimizer")?.counters["overload.level"];
+    setText("overload", level === undefined ? "–" : level === 0 ? "none" : `level ${level} of 4`);
+    element("overload").dataset.kind = level ? "wait" : "";
+    this.showHeadline();
+    this.showEmpty();
+    this.showAbout();
   }
 
   mode(mode: Mode): void {
     this.lastMode = mode;
-    if (mode.mode === "tracking") this.mapView.setPlaces([]);
-    this.showMode();
+    if (mode.mode === "tracking") this.candidates.show([]);
+    this.showHeadline();
   }
 
   places(places: Places): void {
-    this.mapView.setPlaces(this.lastMode?.mode === "tracking" ? [] : places.places);
+    this.candidates.show(this.lastMode?.mode === "tracking" ? [] : places.places);
   }
 
   answer(answer: Answer): void {
     setText("answer", answer.text);
     element("answer").classList.toggle("bad", !answer.ok);
+    clearTimeout(this.answerTimer);
+    this.answerTimer = window.setTimeout(() => setText("answer", ""), ANSWER_MS);
+  }
+
+  // The first picture may be of long ago: it says nothing of how late pictures are.
+  private drew(picture: Picture): void {
+    this.connection.send({ order: "drawn", utime: this.pictured ? picture.utime : 0 });
+    this.pictured = true;
   }
 
   private setView(view: View): void {
@@ -105,13 +160,64 @@ class Page implements Handler {
     }
   }
 
-  private showMode(): void {
-    const mode = this.online && !this.waiting ? (this.lastMode?.mode ?? "none") : "none";
-    element("mode").dataset.mode = mode;
-    setText("mode-sign", SIGNS[mode]);
-    setText("mode-name", mode === "none" ? "no data" : mode);
-    const reason = this.lastMode?.reason ?? "nothing heard of the tracker yet";
-    setText("reason", this.online ? this.waiting || reason : "the monitor does not answer; trying again");
+  private leaveCameraView(): void {
+    if (document.querySelector('#views [data-view="camera"]')?.getAttribute("aria-pressed") === "true") this.setView("orbit");
+  }
+
+  private showHeadline(): void {
+    const { kind, name, reason } = headline({ online: this.online, status: this.lastStatus, mode: this.lastMode, window: this.lastWindow });
+    element("mode").dataset.kind = kind;
+    setText("mode-sign", SIGNS[kind]);
+    setText("mode-name", name);
+    setMarked("reason", reason);
+    element("reason").title = reason;
+    document.title = `${name} – EVIT monitor`;
+  }
+
+  private showLatency(): void {
+    const pose = this.lastWindow?.latencyMs ?? -1;
+    const [median, most] = [this.pictureLatencies.quantile(0.5), this.pictureLatencies.quantile(0.99)];
+    const text = (ms: number | null) => (ms === null || ms < 0 ? "–" : `${ms.toFixed(0)} ms`);
+    setText("latency", pose < 0 && median === null ? "–" : `${text(pose)}, ${text(median)}`);
+    element("latency").dataset.pictureP50 = String(median ?? "");
+    element("latency").dataset.pictureP99 = String(most ?? "");
+  }
+
+  private showEmpty(): void {
+    const empty = this.mapView.cloud.count === 0;
+    showEmptyMap(empty && this.online, this.lastStatus);
+    if (empty) this.showLegend();
+  }
+
+  private showLegend(): void {
+    const { mapView } = this;
+    const step = mapView.gridStep;
+    const [low, high] = mapView.cloud.heights.toArray().map((z) => (Math.round(10 * z) / 10 || 0).toFixed(1).replace("-", "−"));
+    const line = (name: string, text: string) => `<span><i style="background:var(--${name})"></i>${text}</span>`;
+    const parts = [
+      mapView.hasPose && line("accent", "estimate"),
+      mapView.hasTruth && line("truth", "truth"),
+      this.candidates.any && line("truth", "where it may be"),
+      step > 0 && `<span><i class="ramp" style="background:linear-gradient(90deg, ${mapView.cloud.setTheme(isDark())})"></i>height ${low} to ${high} m</span>`,
+      step > 0 && line("grid", `grid ${step} m`),
+    ];
+    const html = parts.filter(Boolean).join("");
+    const legend = element("map-legend");
+    if (legend.innerHTML !== html) legend.innerHTML = html;
+    legend.style.color = color("soft");
+  }
+
+  private showAbout(): void {
+    const status = this.lastStatus;
+    if (!status) return;
+    const figures = this.mapView.figures;
+    Object.assign(this.canvas.dataset, figures);
+    const known = status.map?.known ?? 0;
+    const total = Math.max(known, status.map?.total ?? 0);
+    const points = known ? `${known.toLocaleString("en")}${known < total ? ` of ${total.toLocaleString("en")}` : ""} map points` : "no map";
+    const drawn = figures.drawn! < figures.points! ? `, ${figures.drawn!.toLocaleString("en")} drawn` : "";
+    const viewers = `${status.viewers} viewer${status.viewers === 1 ? "" : "s"}`;
+    setText("about", [points + drawn, figures.framesPerSecond! > 5 && `${figures.framesPerSecond} frames/s`, viewers, status.read_only && "read-only"].filter(Boolean).join(" · "));
   }
 }
 

@@ -2,12 +2,12 @@ import * as THREE from "three";
 import type { MapPiece } from "./frames";
 
 const VERTEX = `
-attribute vec3 position; uniform mat4 modelViewMatrix, projectionMatrix; uniform vec2 range; uniform float size;
+attribute vec3 position; uniform mat4 modelViewMatrix, projectionMatrix; uniform vec2 range; uniform float size, least;
 varying float height;
 void main() {
   height = clamp((position.z - range.x) / (range.y - range.x), 0.0, 1.0);
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-  gl_PointSize = clamp(size / gl_Position.w, 1.0, 3.0);
+  gl_PointSize = clamp(size / gl_Position.w, least, 2.5 * least);
 }`;
 // Height from low to high: lightness grows steadily, as in cividis.
 const FRAGMENT = `
@@ -15,53 +15,65 @@ precision mediump float; uniform vec3 low, middle, high; varying float height;
 void main() {
   gl_FragColor = vec4(height < 0.5 ? mix(low, middle, 2.0 * height) : mix(middle, high, 2.0 * height - 1.0), 1.0);
 }`;
+const COLORS = { light: [0x00224e, 0x66696f, 0xb39a2f], dark: [0x4a6ea8, 0x9a9a92, 0xf5df6a] };
+const SAMPLE = 4000; // points, of which extent and colours are computed
 
-// The map's points in one buffer that grows as they come.
+// The map's points in one buffer, drawn with one call. A map from a file comes in random order: its first points are an
+// even sample, and all that is drawn where the graphics are slow.
 export class MapCloud {
   readonly object: THREE.Points<THREE.BufferGeometry, THREE.RawShaderMaterial>;
-  readonly box = new THREE.Box3();
+  readonly box = new THREE.Box3(); // without strays
+  readonly heights = new THREE.Vector2(); // m: of the lowest and the highest colour
   count = 0;
   private generation = 0;
-  private xyz = new Float32Array(3 * 65536);
-  private heights: number[] = []; // a sample, for the range of colours
+  private xyz = new Float32Array(0);
+  private sampled = 0; // points when box and heights were computed
 
   constructor() {
-    const uniform = (hex: number) => ({ value: new THREE.Color(hex) });
+    const uniform = () => ({ value: new THREE.Color() });
     const material = new THREE.RawShaderMaterial({
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
-      uniforms: {
-        range: { value: new THREE.Vector2(0, 1) },
-        size: { value: 14 },
-        low: uniform(0),
-        middle: uniform(0),
-        high: uniform(0),
-      },
+      uniforms: { range: { value: this.heights }, size: { value: 7 }, least: { value: 1 }, low: uniform(), middle: uniform(), high: uniform() },
     });
     this.object = new THREE.Points(new THREE.BufferGeometry(), material);
     this.object.frustumCulled = false;
     this.attach();
   }
 
-  setColors(dark: boolean): void {
-    const { low, middle, high } = this.object.material.uniforms;
-    const set = (to: THREE.IUniform | undefined, hex: number) => (to!.value as THREE.Color).setHex(hex, THREE.LinearSRGBColorSpace);
-    set(low, dark ? 0x3f5f8f : 0x00224e);
-    set(middle, dark ? 0x9a9a92 : 0x66696f);
-    set(high, dark ? 0xf5df6a : 0xb39a2f);
+  // CSS colours of the ramp, low to high.
+  setTheme(dark: boolean): string {
+    const colors = dark ? COLORS.dark : COLORS.light;
+    const uniforms = this.object.material.uniforms;
+    ["low", "middle", "high"].forEach((name, i) => (uniforms[name]!.value as THREE.Color).setHex(colors[i]!, THREE.LinearSRGBColorSpace));
+    return colors.map((hex) => `#${hex.toString(16).padStart(6, "0")}`).join(", ");
+  }
+
+  setPixelRatio(ratio: number): void {
+    this.object.material.uniforms.size!.value = 7 * ratio;
+    this.object.material.uniforms.least!.value = ratio;
+  }
+
+  // Draws this share of the points, at least `least` of them.
+  setShare(share: number, least: number): void {
+    this.object.geometry.setDrawRange(0, Math.min(this.count, Math.max(least, Math.ceil(share * this.count))));
+  }
+
+  get drawn(): number {
+    return Math.min(this.count, this.object.geometry.drawRange.count);
   }
 
   add(piece: MapPiece): void {
     if (piece.generation !== this.generation) {
       this.generation = piece.generation;
-      this.count = 0;
-      this.heights = [];
+      this.count = this.sampled = 0;
       this.box.makeEmpty();
     }
     const end = piece.first + piece.xyz.length / 3;
-    if (3 * end > this.xyz.length) {
-      const larger = new Float32Array(Math.max(3 * end, 2 * this.xyz.length));
-      larger.set(this.xyz);
+    const room = Math.max(end, piece.capacity);
+    if (3 * room > this.xyz.length) {
+      const larger = new Float32Array(3 * room);
+      larger.set(this.xyz.subarray(0, 3 * this.count));
       this.xyz = larger;
       this.attach();
     }
@@ -71,27 +83,29 @@ export class MapCloud {
     attribute.needsUpdate = true;
     this.count = end;
     this.object.geometry.setDrawRange(0, end);
-    this.measure(piece.xyz);
+    if (this.count > 1.2 * this.sampled) this.measure();
   }
 
   private attach(): void {
     this.object.geometry.dispose();
     const geometry = new THREE.BufferGeometry();
-    const attribute = new THREE.BufferAttribute(this.xyz, 3);
-    attribute.setUsage(THREE.DynamicDrawUsage);
-    geometry.setAttribute("position", attribute);
+    geometry.setAttribute("position", new THREE.BufferAttribute(this.xyz, 3));
     geometry.setDrawRange(0, this.count);
     this.object.geometry = geometry;
   }
 
-  private measure(xyz: Float32Array): void {
-    const point = new THREE.Vector3();
-    for (let i = 0; i + 2 < xyz.length; i += 3) this.box.expandByPoint(point.fromArray(xyz, i));
-    const step = 3 * Math.max(1, Math.floor(xyz.length / 3 / 500));
-    for (let i = 2; i < xyz.length && this.heights.length < 20000; i += step) this.heights.push(xyz[i]!);
-    const sorted = [...this.heights].sort((a, b) => a - b);
-    const at = (share: number) => sorted[Math.floor(share * (sorted.length - 1))] ?? 0;
-    const low = at(0.02);
-    (this.object.material.uniforms.range!.value as THREE.Vector2).set(low, Math.max(at(0.98), low + 0.1));
+  private measure(): void {
+    this.sampled = this.count;
+    const step = 3 * Math.max(1, Math.floor(this.count / SAMPLE));
+    const along = [0, 1, 2].map((axis) => {
+      const values: number[] = [];
+      for (let i = axis; i < 3 * this.count; i += step) values.push(this.xyz[i]!);
+      return values.sort((a, b) => a - b);
+    });
+    const at = (axis: number, share: number) => along[axis]![Math.floor(share * (along[axis]!.length - 1))] ?? 0;
+    this.box.min.set(at(0, 0.005), at(1, 0.005), at(2, 0.005));
+    this.box.max.set(at(0, 0.995), at(1, 0.995), at(2, 0.995));
+    const low = at(2, 0.02);
+    this.heights.set(low, Math.max(at(2, 0.98), low + 0.1));
   }
 }

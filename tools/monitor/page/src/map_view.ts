@@ -2,44 +2,60 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Body, ellipsoidMatrix, mountOf } from "./body";
 import { color, isDark, onThemeChange } from "./dom";
+import { FramePace } from "./frame_pace";
 import type { MapPiece, Pose, WindowState } from "./frames";
 import { MapCloud } from "./map_cloud";
-import type { CameraInfo, Places } from "./status";
+import type { CameraInfo } from "./status";
 import { Trail } from "./trail";
-
-const SURE = 4.5; // standard deviations: chance stays below (lcmtypes/places_t.lcm)
 
 export type View = "orbit" | "follow" | "camera";
 
 // From three's camera (looks along -z, y up) to ours (looks along z, y down).
 const TURN = new THREE.Quaternion(1, 0, 0, 0);
+const FOV = 50; // degrees
+const FEWEST = 40_000; // points of the map that are drawn on the slowest computer
+
+// Graphics without a GPU: every pixel costs.
+function isSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = gl && info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
 
 // The map in 3-D, with the body, its path and what is known of its uncertainty. Draws only when something has changed.
 export class MapView {
   readonly cloud = new MapCloud();
-  readonly ghost = new Body(false); // a pose that is about to be given
-  readonly camera = new THREE.PerspectiveCamera(55, 1, 0.02, 500);
+  readonly scene = new THREE.Scene();
+  readonly ghost = new Body({ width: 2.5, filled: true }); // a pose that is about to be given
+  readonly camera = new THREE.PerspectiveCamera(FOV, 1, 0.02, 1000);
+  readonly pace = new FramePace();
   private readonly renderer: THREE.WebGLRenderer;
-  private readonly scene = new THREE.Scene();
   private readonly controls: OrbitControls;
-  private readonly body = new Body(true);
-  private readonly truth = new Body(false);
-  private candidates: Body[] = [];
-  private readonly trail = new Trail();
-  private readonly truthTrail = new Trail();
+  private readonly body = new Body({ width: 2.5, axes: true, filled: true });
+  private readonly truth = new Body({ width: 1.5 });
+  private readonly trail = new Trail(2);
+  private readonly truthTrail = new Trail(1.5);
   private readonly ellipsoid: THREE.Mesh<THREE.SphereGeometry, THREE.MeshBasicMaterial>;
+  private grid: THREE.GridHelper | null = null;
   private view: View = "orbit";
   private readonly outside = new THREE.Vector3(); // where it was looked from before the camera's view
   private info: CameraInfo | null = null;
   private framed = 0; // points in the map when it was last brought into view
-  private posed = false; // a pose has come
   private touched = false; // by the user: no more framing
   private dirty = true;
+  private wasDirty = false;
   enlarge = 10;
+  onLegend: () => void = () => {};
 
   constructor(private readonly canvas: HTMLCanvasElement) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    const software = isSoftware();
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !software });
+    this.renderer.info.autoReset = true;
+    const ratio = software ? 1 : Math.min(devicePixelRatio, 2);
+    this.renderer.setPixelRatio(ratio);
+    this.cloud.setPixelRatio(ratio);
     this.camera.up.set(0, 0, 1);
     this.camera.position.set(-3, -4, 3);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -55,13 +71,29 @@ export class MapView {
     onThemeChange(() => this.paint());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
     this.resize();
-    const draw = () => {
+    const draw = (now: number) => {
       requestAnimationFrame(draw);
-      if (!this.dirty || document.hidden) return;
-      this.dirty = false;
-      this.renderer.render(this.scene, this.camera);
+      this.draw(now);
     };
-    draw();
+    requestAnimationFrame(draw);
+  }
+
+  // For people who want to know, and for measurements.
+  get figures(): Record<string, number> {
+    const { render } = this.renderer.info;
+    return { framesPerSecond: this.pace.rate(performance.now()), calls: render.calls, points: this.cloud.count, drawn: this.cloud.drawn };
+  }
+
+  get hasPose(): boolean {
+    return this.body.object.userData.placed === true;
+  }
+
+  get hasTruth(): boolean {
+    return this.truth.object.visible;
+  }
+
+  get gridStep(): number {
+    return this.grid ? (this.grid.userData.step as number) : 0;
   }
 
   invalidate(): void {
@@ -74,8 +106,8 @@ export class MapView {
     else if (this.view === "camera") this.camera.position.copy(this.outside);
     this.view = view;
     this.controls.enabled = view !== "camera";
-    this.body.object.visible = this.posed && view !== "camera";
-    this.camera.fov = 55;
+    this.body.object.visible = this.hasPose && view !== "camera";
+    this.camera.fov = FOV;
     this.camera.updateProjectionMatrix();
     if (view === "camera") this.lookAsCamera();
     else if (view === "follow") this.approach();
@@ -89,6 +121,7 @@ export class MapView {
   }
 
   setCamera(info: CameraInfo | null): void {
+    if (JSON.stringify(info) === JSON.stringify(this.info)) return;
     this.info = info;
     for (const body of [this.body, this.truth, this.ghost]) body.setCamera(info);
     this.dirty = true;
@@ -100,10 +133,19 @@ export class MapView {
     this.dirty = true;
   }
 
+  // Where the body was; setPose says where it is.
+  addPast(pose: Pose): void {
+    this.trail.add(pose);
+  }
+
+  addTruthPast(pose: Pose): void {
+    this.truthTrail.add(pose);
+  }
+
   setPose(pose: Pose): void {
     const before = this.body.object.position.clone();
     this.body.place(pose.position, pose.orientation);
-    this.posed = true;
+    this.body.object.userData.placed = true;
     this.trail.add(pose);
     if (this.view === "camera") {
       this.lookAsCamera();
@@ -127,24 +169,6 @@ export class MapView {
     this.dirty = true;
   }
 
-  // Candidates of a search for the start: the surer, the more visible.
-  setPlaces(places: Places["places"]): void {
-    for (const body of this.candidates) {
-      this.scene.remove(body.object);
-      body.dispose();
-    }
-    this.candidates = places.map((place) => {
-      const body = new Body(false);
-      body.setCamera(this.info);
-      body.setColor(color("soft"));
-      body.setOpacity(place.significance >= SURE ? 1 : 0.35);
-      body.place(place.position, place.orientation);
-      this.scene.add(body.object);
-      return body;
-    });
-    this.dirty = true;
-  }
-
   clearTrail(): void {
     this.trail.clear();
     this.truthTrail.clear();
@@ -163,14 +187,71 @@ export class MapView {
   // T_map_camera of the newest pose; null where there is none.
   lastCamera(): THREE.Matrix4 | null {
     const mount = mountOf(this.info);
-    if (!mount || !this.posed) return null;
+    if (!mount || !this.hasPose) return null;
     this.body.object.updateMatrix();
     return this.body.object.matrix.clone().multiply(mount);
   }
 
+  // The whole map in view.
+  frameMap(): void {
+    this.framed = this.cloud.count;
+    if (this.cloud.box.isEmpty()) return;
+    const center = this.cloud.box.getCenter(new THREE.Vector3());
+    const radius = Math.max(0.3, this.cloud.box.getSize(new THREE.Vector3()).length() / 2);
+    const narrow = Math.min(1, this.camera.aspect);
+    const distance = (0.78 * radius) / Math.sin((FOV * Math.PI) / 360) / narrow;
+    this.controls.target.copy(center);
+    this.camera.position.copy(center).add(new THREE.Vector3(-0.52, -0.68, 0.52).normalize().multiplyScalar(distance));
+    this.controls.update();
+    this.layGrid(center, radius);
+    this.dirty = true;
+  }
+
+  private draw(now: number): void {
+    if (document.hidden) return;
+    // All points again once nothing moves any more.
+    const complete = !this.dirty && this.cloud.drawn < this.cloud.count && this.pace.still(now);
+    if (!this.dirty && !complete) {
+      this.wasDirty = false;
+      return;
+    }
+    if (!complete) this.pace.add(now, this.wasDirty);
+    this.cloud.setShare(complete ? 1 : this.pace.share, FEWEST);
+    this.wasDirty = this.dirty;
+    this.dirty = false;
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  // The floor, in steps of 1, 2 or 5 times a power of ten metres.
+  private layGrid(center: THREE.Vector3, radius: number): void {
+    if (this.grid) this.scene.remove(this.grid);
+    this.grid?.dispose();
+    const rough = radius / 3;
+    const power = 10 ** Math.floor(Math.log10(rough));
+    const step = power * ([5, 2, 1].find((k) => k * power <= rough) ?? 1);
+    const n = 2 * Math.ceil(radius / step);
+    this.grid = new THREE.GridHelper(n * step, n);
+    this.grid.userData.step = step;
+    this.grid.rotateX(Math.PI / 2);
+    this.grid.position.set(step * Math.round(center.x / step), step * Math.round(center.y / step), this.cloud.box.min.z);
+    this.paintGrid();
+    this.scene.add(this.grid);
+    this.onLegend();
+  }
+
+  private paintGrid(): void {
+    if (!this.grid) return;
+    const material = this.grid.material as THREE.LineBasicMaterial;
+    material.vertexColors = false;
+    material.color.set(color("grid"));
+    material.needsUpdate = true;
+    this.grid.renderOrder = -1;
+    material.depthWrite = false;
+  }
+
   // The body in the middle, from where it is looked at now but not from farther away than some metres.
   private approach(): void {
-    const from = this.camera.position.clone().sub(this.controls.target).clampLength(0.3, 3);
+    const from = this.camera.position.clone().sub(this.controls.target).clampLength(0.3, 2.5);
     this.controls.target.copy(this.body.object.position);
     this.camera.position.copy(this.controls.target).add(from);
   }
@@ -186,24 +267,16 @@ export class MapView {
     this.ellipsoid.visible = false;
   }
 
-  private frameMap(): void {
-    this.framed = this.cloud.count;
-    const center = this.cloud.box.getCenter(new THREE.Vector3());
-    const radius = Math.max(0.5, this.cloud.box.getSize(new THREE.Vector3()).length() / 2);
-    this.controls.target.copy(center);
-    this.camera.position.copy(center).add(new THREE.Vector3(-0.75, -1.05, 0.95).multiplyScalar(radius));
-    this.controls.update();
-  }
-
   private paint(): void {
     this.renderer.setClearColor(color("panel"));
-    this.cloud.setColors(isDark());
-    this.trail.object.material.color.set(color("accent"));
+    this.cloud.setTheme(isDark());
+    this.trail.setColor(color("accent"));
     this.body.setColor(color("accent"));
     this.ellipsoid.material.color.set(color("accent"));
-    this.truth.setColor(color("wait"));
-    this.truthTrail.object.material.color.set(color("wait"));
+    this.truth.setColor(color("truth"));
+    this.truthTrail.setColor(color("truth"));
     this.ghost.setColor(color("bad"));
+    this.paintGrid();
     this.dirty = true;
   }
 

@@ -14,15 +14,18 @@ interface Curve {
 }
 
 interface Plan {
-  title: string; // with its unit
+  title: string;
+  unit: string;
+  digits: number; // of the newest value, beside the title
   curves: Curve[];
 }
 
-const norm = (v: number[]) => Math.hypot(...v);
-const sigma = (state: WindowState, i: number) => Math.sqrt(state.covariance[7 * i]!);
+const sigma = (state: WindowState, first: number) =>
+  Math.hypot(...[first, first + 1, first + 2].map((i) => Math.sqrt(Math.max(0, state.covariance[7 * i]!))));
 // Okabe and Ito; dashes too, so that curves differ without colour.
 const [BLUE, ORANGE, GREEN] = ["#2f8fd0", "#d98b00", "#12a07a"];
 
+const one = (of: (state: WindowState) => number): Curve[] => [{ label: "", color: BLUE, of }];
 const xyz = (of: (state: WindowState) => number[]): Curve[] => [
   { label: "x", color: BLUE, of: (s) => of(s)[0]! },
   { label: "y", color: ORANGE, dash: [6, 3], of: (s) => of(s)[1]! },
@@ -30,42 +33,41 @@ const xyz = (of: (state: WindowState) => number[]): Curve[] => [
 ];
 
 const PLANS: Plan[] = [
-  { title: "Speed, m/s", curves: [{ label: "speed", color: BLUE, of: (s) => norm(s.velocity) }] },
+  { title: "Velocity", unit: "m/s", digits: 2, curves: xyz((s) => s.velocity) },
+  { title: "σ position", unit: "mm", digits: 1, curves: one((s) => 1000 * sigma(s, 0)) },
+  { title: "σ rotation", unit: "°", digits: 2, curves: one((s) => (180 / Math.PI) * sigma(s, 3)) },
+  { title: "Gyro bias", unit: "rad/s", digits: 3, curves: xyz((s) => s.gyroBias) },
+  { title: "Acc. bias", unit: "m/s²", digits: 3, curves: xyz((s) => s.accelBias) },
   {
-    title: "Position σ, mm",
-    curves: [{ label: "σ", color: BLUE, of: (s) => 1000 * norm([sigma(s, 0), sigma(s, 1), sigma(s, 2)]) }],
-  },
-  { title: "Gyro bias, rad/s", curves: xyz((s) => s.gyroBias) },
-  { title: "Accel. bias, m/s²", curves: xyz((s) => s.accelBias) },
-  {
-    title: "Time, ms",
+    title: "Time",
+    unit: "ms",
+    digits: 0,
     curves: [
       { label: "solve", color: BLUE, of: (s) => s.solveMs },
       { label: "total", color: ORANGE, dash: [6, 3], of: (s) => s.totalMs },
       { label: "latency", color: GREEN, dash: [2, 2], of: (s) => (s.latencyMs < 0 ? null : s.latencyMs) },
     ],
   },
-  { title: "Points on edges, %", curves: [{ label: "share", color: BLUE, of: (s) => 100 * s.inlierShare }] },
+  { title: "On edges", unit: "%", digits: 0, curves: one((s) => 100 * s.inlierShare) },
 ];
 
 class Plot {
   private plot: uPlot | null = null;
-  private readonly place: HTMLElement;
+  private readonly place = document.createElement("div");
+  private readonly newest = document.createElement("span");
 
   constructor(parent: HTMLElement, private readonly plan: Plan) {
     const box = document.createElement("div");
     box.className = "plot";
     const title = document.createElement("h2");
-    title.textContent = plan.title;
-    if (plan.curves.length > 1) {
-      for (const curve of plan.curves) {
-        const name = document.createElement("b");
-        name.textContent = curve.label;
-        name.style.color = curve.color;
-        title.append(name);
-      }
+    title.innerHTML = `<b>${plan.title}</b><i>${plan.unit}</i>`;
+    for (const curve of plan.curves.filter(({ label }) => label)) {
+      const name = document.createElement("i");
+      name.textContent = curve.label;
+      name.style.color = curve.color;
+      title.append(name);
     }
-    this.place = document.createElement("div");
+    if (plan.curves.length === 1) title.append(this.newest);
     box.append(title, this.place);
     parent.append(box);
     new ResizeObserver(() => this.fit()).observe(box);
@@ -76,6 +78,8 @@ class Plot {
   draw(seconds: number[], states: WindowState[]): void {
     const data = this.plan.curves.map((curve) => states.map(curve.of));
     this.plot?.setData([seconds, ...data]);
+    const last = states.at(-1);
+    this.newest.textContent = last ? (this.plan.curves[0]!.of(last) ?? 0).toFixed(this.plan.digits) : "";
   }
 
   private make(): void {
@@ -88,8 +92,8 @@ class Plot {
         cursor: { show: false },
         scales: { x: { time: false, range: (_, min) => [Math.min(min ?? 0, -SHORTEST_S), 0] } },
         axes: [
-          { ...axis, size: 22, values: (_, ticks) => ticks.map((t) => (t === 0 ? "now" : `${t} s`)), space: 45 },
-          { ...axis, size: 44, space: 26 },
+          { ...axis, size: 22, values: (_, ticks) => ticks.map((t) => (t === 0 ? "now" : `${t} s`.replace("-", "−"))), space: 50 },
+          { ...axis, size: 42, space: 26 },
         ],
         series: [{}, ...this.plan.curves.map((c) => ({ stroke: c.color, width: 1.5, dash: c.dash, points: { show: false } }))],
       },
@@ -99,7 +103,7 @@ class Plot {
   }
 
   private size(): { width: number; height: number } {
-    return { width: Math.max(120, this.place.clientWidth), height: 158 };
+    return { width: Math.max(120, this.place.clientWidth), height: 140 };
   }
 
   private fit(): void {
@@ -114,12 +118,14 @@ export class Plots {
   private changed = false;
 
   constructor() {
+    element("plots-empty").textContent = "no estimate yet: the last minute of velocity, uncertainty, biases and times comes here";
     setInterval(() => this.draw(), REDRAW_MS);
   }
 
   add(state: WindowState): void {
     const last = this.states.at(-1);
-    if (last && state.utime <= last.utime) this.states = []; // the replay went back
+    if (last && state.utime <= last.utime) this.states = []; // the replay went back, or the past comes again
+    if (this.states.length === 0) element("plots-empty").textContent = "";
     this.states.push(state);
     this.changed = true;
   }

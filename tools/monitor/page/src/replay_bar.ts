@@ -1,5 +1,6 @@
 import type { Order } from "./connection";
 import { element, setText } from "./dom";
+import { placeOf } from "./headline";
 import type { Status } from "./status";
 
 const HOLD_MS = 1500; // after an order, until STATUS has caught up
@@ -35,10 +36,10 @@ export class ReplayBar {
   show(status: Status): void {
     const replay = status.services.find((service) => service.name === "log_replay");
     const usable = !!replay && !status.read_only;
-    element("replay").classList.toggle("off", !usable);
+    element("replay").hidden = !replay;
     for (const control of [this.slider, this.button, this.speed]) control.disabled = !usable;
-    if (!replay) return setText("place", "no replay");
-    setText("place", /[\d.]+ of [\d.]+ s/.exec(replay.detail)?.[0] ?? replay.state);
+    if (!replay) return;
+    setText("place", placeOf(replay) || replay.state);
     if (performance.now() < this.heldUntil) return;
     this.atEnd = replay.progress >= 1;
     this.showPaused(replay.state === "paused" || this.atEnd);

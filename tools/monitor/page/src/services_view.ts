@@ -4,16 +4,31 @@ import type { Channel, Process, Service, Status } from "./status";
 const ORDER = ["log_replay", "frame_builder", "map_server", "window_optimizer"];
 const SILENT_S = 3; // services send STATUS once a second
 
-type Kind = "good" | "wait" | "bad";
-const SIGNS: Record<Kind, string> = { good: "●", wait: "◐", bad: "✖" };
+type Kind = "good" | "wait" | "bad" | "idle";
+const SIGNS: Record<Kind, string> = { good: "●", wait: "◐", bad: "✖", idle: "○" };
+const KINDS: Record<string, Kind> = { running: "good", finished: "idle", drained: "idle", failed: "bad", degraded: "bad" };
+
+export const isSilent = (service: Service): boolean => service.age_s > SILENT_S;
 
 function stateOf(service: Service | undefined, process: Process | undefined): { text: string; kind: Kind } {
   if (process?.restarting) return { text: "restarting", kind: "wait" };
   if (process && process.pid === 0) return { text: "not running", kind: "bad" };
-  if (!service) return { text: "not heard", kind: "bad" };
-  if (service.age_s > SILENT_S) return { text: `silent for ${Math.round(service.age_s)} s`, kind: "bad" };
-  const kinds: Record<string, Kind> = { running: "good", finished: "good", drained: "good", failed: "bad", degraded: "bad" };
-  return { text: service.state, kind: kinds[service.state] ?? "wait" };
+  if (!service) return { text: "not heard", kind: "idle" };
+  if (isSilent(service) && service.state !== "finished") return { text: `silent, ${Math.round(service.age_s)} s`, kind: "bad" };
+  return { text: service.state, kind: KINDS[service.state] ?? "wait" };
+}
+
+// Which service does not run although it should, and what happens next; empty: none.
+export function downReason(status: Status): string {
+  const processes = status.processes ?? [];
+  for (const service of status.services) {
+    const process = processes.find(({ name }) => name === service.name);
+    const { kind } = stateOf(service, process);
+    if (kind !== "bad" || service.state === "failed" || service.state === "degraded") continue;
+    const silence = `${service.name} has not been heard for ${Math.round(service.age_s)} s`;
+    return process ? `${silence}; its supervisor starts it again` : `${silence}; start it again`;
+  }
+  return "";
 }
 
 // "/a/long/path/file: running" -> "file: running"
@@ -21,62 +36,92 @@ function withoutFolders(detail: string): string {
   return detail.replace(/(^|\s)\/(?:[^\s:/]+\/)+/g, "$1");
 }
 
-function queuesOf(service: Service): string {
-  const interesting = Object.entries(service.counters).filter(
-    ([name, value]) => value > 0 && /\.(lost|invalid|dropped|superseded|overrun|out_of_order|duplicate)$|^queue/.test(name),
+function lossesOf(service: Service): string {
+  const losses = Object.entries(service.counters).filter(
+    ([name, value]) => value > 0 && (/\.(lost|invalid|dropped|overrun)$/.test(name) || name === "bus.queue_drops") && !name.startsWith("mode."),
   );
-  return interesting.map(([name, value]) => `${name} ${value}`).join(", ");
+  return losses.map(([name, value]) => `${name} ${value.toLocaleString("en")}`).join(", ");
 }
 
-// Health of the services, what they lost, and the channels.
+// What waits in the service now.
+function queueOf(service: Service | undefined): string {
+  const waiting = Object.entries(service?.counters ?? {}).filter(([name]) => name.endsWith(".queued"));
+  return waiting.length ? String(waiting.reduce((sum, [, value]) => sum + value, 0)) : "";
+}
+
+// Health of the services, what waits in them and what they lost, and the channels.
 export class ServicesView {
   constructor(private readonly restart: (name: string) => void) {}
 
   show(status: Status): void {
     const processes = status.processes ?? [];
-    const names = new Set([...ORDER, ...status.services.map((s) => s.name), ...processes.map((p) => p.name)]);
     const heard = new Set([...status.services.map((s) => s.name), ...processes.map((p) => p.name)]);
+    const names = new Set([...ORDER, ...heard]);
     if (heard.size > 0 && !heard.has("log_replay")) names.delete("log_replay"); // a robot has none
     const table = element<HTMLTableElement>("services");
+    const head = document.createElement("tr");
+    head.innerHTML = "<th>service<th>state<th class=number>CPU, %<th class=number>MB<th class=number title='Messages that wait in it now'>queue<th>";
     const rows = [...names].map((name) => {
       const service = status.services.find((s) => s.name === name);
       const process = processes.find((p) => p.name === name);
       return this.row(name, service, process, status.read_only);
     });
-    table.replaceChildren(...rows.flat());
+    // A button under the pointer stays where it is: the table is replaced only while none is pressed.
+    if (!table.matches(":active")) table.replaceChildren(head, ...rows.flat());
     this.showChannels(status.channels ?? []);
-    const level = status.services.find((s) => s.name === "window_optimizer")?.counters["overload.level"];
-    setText("overload", level === undefined ? "–" : level === 0 ? "none" : `level ${level}`);
   }
 
   private row(name: string, service: Service | undefined, process: Process | undefined, readOnly: boolean) {
     const row = document.createElement("tr");
+    row.className = "service";
     row.dataset.service = name;
     row.dataset.pid = String(process?.pid ?? 0);
     const { text, kind } = stateOf(service, process);
     const state = cell(`${SIGNS[kind]} ${text}`, "state");
     state.dataset.kind = kind;
-    const load = process && process.pid ? `${Math.round(100 * process.cpu)} % CPU, ${Math.round(process.memory_mb)} MB` : "";
-    const lost = service ? queuesOf(service) : "";
-    const detail = cell([service && withoutFolders(service.detail), load, lost].filter(Boolean).join(" · "), "detail");
-    detail.title = service
-      ? Object.entries({ ...service.timings_ms, ...service.counters })
-          .map(([key, value]) => `${key} ${Number.isInteger(value) ? value : value.toFixed(2)}`)
-          .join("\n")
-      : "";
+    const runs = process !== undefined && process.pid !== 0;
     const action = document.createElement("td");
+    action.className = "number";
     if (process && !readOnly) {
       const button = document.createElement("button");
-      button.textContent = "Restart";
+      button.textContent = "↻";
+      button.title = `Restart ${name}`;
+      button.setAttribute("aria-label", button.title);
       button.disabled = process.restarting;
       button.onclick = () => this.restart(name);
       action.append(button);
     }
-    const more = document.createElement("tr");
-    detail.colSpan = 3;
-    more.append(detail);
-    row.append(cell(name, "name"), state, action);
-    return [row, more];
+    row.append(
+      cell(name, "name"),
+      state,
+      cell(runs ? (100 * process.cpu).toFixed(0) : "", "number"),
+      cell(runs ? process.memory_mb.toFixed(0) : "", "number"),
+      cell(queueOf(service), "number"),
+      action,
+    );
+    return [row, this.detail(service)];
+  }
+
+  private detail(service: Service | undefined): HTMLTableRowElement {
+    const row = document.createElement("tr");
+    const detail = cell("", "detail");
+    detail.colSpan = 6;
+    row.append(detail);
+    if (!service) return row;
+    const losses = lossesOf(service);
+    if (losses) {
+      const loss = document.createElement("em");
+      loss.textContent = `${losses} · `;
+      detail.append(loss);
+    }
+    detail.append(withoutFolders(service.detail));
+    detail.title = [
+      service.detail,
+      ...Object.entries({ ...service.timings_ms, ...service.counters }).map(
+        ([key, value]) => `${key} ${Number.isInteger(value) ? value : value.toFixed(2)}`,
+      ),
+    ].join("\n");
+    return row;
   }
 
   private showChannels(channels: Channel[]): void {
@@ -84,10 +129,14 @@ export class ServicesView {
     head.innerHTML = "<th>channel<th class=number>per s<th class=number>lost<th class=number>invalid";
     const rows = channels.map((channel) => {
       const row = document.createElement("tr");
-      const count = (n: number) => cell(String(n), n > 0 ? "number some" : "number");
+      const count = (n: number) => cell(n.toLocaleString("en"), n > 0 ? "number some" : "number");
       row.append(cell(channel.name), cell(channel.rate_hz.toFixed(0), "number"), count(channel.lost), count(channel.invalid));
       return row;
     });
     element("channels").replaceChildren(head, ...rows);
+    const sum = (of: (channel: Channel) => number) => channels.reduce((total, channel) => total + of(channel), 0);
+    const bad = sum((c) => c.lost + c.invalid);
+    const rate = `${sum((c) => c.rate_hz).toFixed(0)} messages/s as this monitor hears them`;
+    setText("channels-summary", channels.length ? `${rate}, ${bad ? `${bad.toLocaleString("en")} lost or invalid` : "none lost"}` : "none heard");
   }
 }

@@ -70,4 +70,9 @@ export interface Places {
   places: { position: number[]; orientation: number[]; significance: number }[];
 }
 
-export type Text = Status | Mode | Answer | Places;
+export interface Drawn {
+  type: "drawn";
+  picture_ms: number; // from a picture's instant until it was on the screen
+}
+
+export type Text = Status | Mode | Answer | Places | Drawn;

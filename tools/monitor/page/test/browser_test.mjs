@@ -41,9 +41,28 @@ async function test() {
   let monitor = pipeline.monitor();
   page = await browser.newPage({ viewport: { width: 800, height: 520 } });
   page.on("pageerror", (error) => errors.push(error.message));
+  // Between page and server, so that this test can say what a server says seldom.
+  let line;
+  await page.routeWebSocket(/./, (socket) => {
+    socket.connectToServer();
+    line = socket;
+  });
   await until("the server", () => page.goto(`http://127.0.0.1:${PORT}/`).catch(() => null));
   await until("the page to say that nothing runs", async () => (await text("reason")).includes("waiting for"));
-  step("the page is open, nothing runs");
+  assert.equal(await text("mode-name"), "no pipeline");
+  assert.match(await text("map-empty"), /No pipeline is running.*evit run --log LOG/s);
+  step("the page is open, nothing runs, and it says what starts a pipeline");
+
+  // Candidates of a search, as the server sends them.
+  const place = (x, significance) => ({ position: [x, 0, 1], orientation: [0, 0, 0, 1], significance });
+  line.send(JSON.stringify({ type: "places", places: [place(1, 7.5), place(2, 3.1)] }));
+  await until("the candidates", async () => (await page.locator("#candidates tr").count()) === 2);
+  assert.match(await text("candidates"), /1\.00 {2}0\.00 {2}1\.00.*7\.5 σ/s);
+  await page.click("#candidates tr:first-child button");
+  await until("that nobody takes a pose yet", async () => (await text("answer")).includes("no pipeline is running"));
+  line.send(JSON.stringify({ type: "places", places: [] }));
+  await until("no candidates", () => page.isHidden("#candidates"));
+  step("candidates of a search are listed, and one was given");
 
   // Every position that is shown, from now on.
   await page.evaluate(() => {
@@ -60,15 +79,33 @@ async function test() {
     await hintStart();
     return false;
   }, 150);
-  await until("the whole map", async () => /^24,060 of 24,060/.test(await text("about")));
-  await until("the picture", async () => (await text("surface-info")).includes("decay"));
+  await until("the whole map", async () => /^24,060 map points/.test(await text("about")));
+  await until("the picture", async () => /\d ms/.test(await text("decay")));
+  assert.equal(await text("map-empty"), "");
   step("connected during a run: the pose moves");
 
-  await until("the end", async () => (await text("play")) === "Play");
+  await until("the end", async () => (await text("mode-name")) === "ended");
+  assert.equal(await text("play"), "Play");
+  assert.match(await text("reason"), /^the recording is over/);
+
+  // One who comes late sees what has happened.
+  const late = await browser.newPage({ viewport: { width: 800, height: 520 }, colorScheme: "dark" });
+  late.on("pageerror", (error) => errors.push(error.message));
+  await late.goto(`http://127.0.0.1:${PORT}/`);
+  await until("the past", async () => /mm/.test(await late.textContent("#sigma")));
+  await until("the last picture", async () => /\d ms/.test(await late.textContent("#decay")));
+  assert.equal(await late.textContent("#plots-empty"), "");
+  await until("all points of the map drawn", async () => (await late.getAttribute("#map", "data-drawn")) === "24060");
+  const calls = Number(await late.getAttribute("#map", "data-calls"));
+  assert.ok(calls > 0 && calls < 30, `${calls} draw calls`);
+  await late.close();
+  step("a page that was opened after the end shows the last minute");
+
   await page.click("#play"); // from the beginning
   await until("the first second again", async () => (await placeOf()) < 2.5);
   await page.click("#play");
   await until("the pause", async () => (await page.getAttribute('tr[data-service="log_replay"] .state', "data-kind")) === "wait");
+  assert.equal(await text("mode-name"), "paused");
   const held = await placeOf();
   await seek(0.5);
   await until("the place sought", async () => Math.abs((await placeOf()) - 1.5) < 0.1);
@@ -76,6 +113,9 @@ async function test() {
   step("paused and sought");
 
   // A pose by mouse: press, drag, send.
+  await page.click("#hint");
+  await page.keyboard.press("Escape");
+  assert.ok(await page.isHidden("#hint-form"));
   await page.click("#hint");
   const before = await page.inputValue("#hint-x");
   const box = await page.locator("#map").boundingBox();
@@ -107,6 +147,7 @@ async function test() {
 
   process.kill(Pipeline.childrenOf(monitor.pid)[0], "SIGKILL");
   await until("the page to notice", async () => (await text("reason")).includes("does not answer"));
+  assert.equal(await text("mode-name"), "no monitor");
   await until("the page again", async () => !(await text("reason")).includes("does not answer"));
   monitor.kill("SIGTERM");
   await until("the page to notice", async () => (await text("reason")).includes("does not answer"));
