@@ -116,6 +116,8 @@ bool Validate(const tracker_mode_t& m, std::string* why) {
       .That(m.resend == 0 || m.resend == 1, "resend is neither 0 nor 1")
       .Finite("image_speed", m.image_speed)
       .That(m.image_speed >= 0, "image_speed is negative")
+      .That(m.useful_interval_us >= 0 && m.useful_interval_us <= 1'000'000,
+            "useful_interval_us is not 0..1000000")
       .That(m.keyframe_stride >= 1 && m.keyframe_stride <= 100, "keyframe_stride is not 1..100")
       .ok();
 }

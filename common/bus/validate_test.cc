@@ -95,6 +95,8 @@ TEST(Validate, TrackerAndWindow) {
   ExpectRefused<tracker_mode_t>("resend", [](auto* m) { m->resend = 2; });
   ExpectRefused<tracker_mode_t>("keyframe_seq", [](auto* m) { m->keyframe_seq = -2; });
   ExpectRefused<tracker_mode_t>("keyframe_stride", [](auto* m) { m->keyframe_stride = 0; });
+  ExpectRefused<tracker_mode_t>("useful_interval_us", [](auto* m) { m->useful_interval_us = -1; });
+  ExpectRefused<tracker_mode_t>("useful_interval_us", [](auto* m) { m->useful_interval_us = 1'000'001; });
   ExpectRefused<tracker_mode_t>("keyframe_stride", [](auto* m) { m->keyframe_stride = kNaN; });
   ExpectRefused<keyframe_t>("lookahead_us", [](auto* m) { m->lookahead_us = -1; });
   ExpectRefused<tracker_mode_t>("image_speed", [](auto* m) { m->image_speed = kNaN; });

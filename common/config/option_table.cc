@@ -11,6 +11,7 @@ template <typename Options, typename Visitor>
 void VisitOptions(Options& o, const Visitor& visit) {
   visit("keyframes.n_event", o.keyframes.n_event);
   visit("keyframes.n_imu", o.keyframes.n_imu);
+  visit("keyframes.relaxed_interval_ms", o.keyframes.relaxed_interval_ms);
   visit("keyframes.max_interval_ms", o.keyframes.max_interval_ms);
   visit("keyframes.min_events", o.keyframes.min_events);
   visit("keyframes.fixed_rate_hz", o.keyframes.fixed_rate_hz);

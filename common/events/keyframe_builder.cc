@@ -78,9 +78,10 @@ bool KeyframeBuilder::Decide() {
       awaited_ = next_seq_ - FeedbackSchedule::kDelay;
       return false;
     }
-    const auto due = policy_.Due({feedback->mode, feedback->keyframe_stride, interval_.begin(), sample.t,
-                                  interval_.newest().t, merger_.PositionAfter(sample.t) - last_position_,
-                                  static_cast<int>(interval_.size())});
+    const auto due =
+        policy_.Due({feedback->mode, feedback->keyframe_stride, feedback->useful_interval, interval_.begin(),
+                     sample.t, interval_.newest().t, merger_.PositionAfter(sample.t) - last_position_,
+                     static_cast<int>(interval_.size())});
     if (due) {
       Push(*due, sample, *feedback);
       if (*due == sample.t) merger_.PopImu();

@@ -18,6 +18,7 @@ KeyframePolicy::KeyframePolicy(const KeyframeOptions& keyframes, const SurfaceOp
       n_event_(keyframes.n_event),
       min_events_(keyframes.min_events),
       n_imu_(keyframes.n_imu),
+      relaxed_interval_(std::llround(1e3 * keyframes.relaxed_interval_ms)),
       max_interval_(Micros(keyframes.max_interval_ms)),
       high_rate_interval_(Micros(keyframes.bootstrap_interval_ms)),
       fixed_interval_(keyframes.fixed_rate_hz > 0 ? Micros(1e3 / keyframes.fixed_rate_hz) : 0),
@@ -32,10 +33,15 @@ std::optional<Utime> KeyframePolicy::Due(const Situation& s) const {
     if (stamp > s.imu) return std::nullopt;
     return stamp > s.imu_before && s.imu - s.imu_before > kImuHole ? s.imu : stamp;
   }
-  const bool enough = static_cast<double>(s.n_events) >= s.stride * static_cast<double>(n_event_) &&
+  const Utime waited = s.imu - s.last;
+  // Whether the sample before would have been nearer to the interval does not matter: half a sample either
+  // way.
+  const double interval =
+      s.stride * static_cast<double>(std::min({s.useful_interval, relaxed_interval_, max_interval_}));
+  const bool useful = static_cast<double>(waited + (s.imu - s.imu_before) / 2) >= interval;
+  const bool enough = useful && static_cast<double>(s.n_events) >= s.stride * static_cast<double>(n_event_) &&
                       s.n_imu >= s.stride * n_imu_;
   // A keyframe comes at last without events too: the IMU continues, and with it what is known of the state.
-  const Utime waited = s.imu - s.last;
   const bool late = (waited >= max_interval_ && s.n_events >= min_events_) || waited >= 2 * max_interval_;
   if (enough || late) return s.imu;
   return std::nullopt;

@@ -20,6 +20,7 @@ class KeyframePolicy {
   struct Situation {
     TrackerFeedback::Mode mode = TrackerFeedback::Mode::kBootstrapping;
     double stride = 1;
+    Utime useful_interval = 0;  // us
     Utime last = 0;             // stamp of the last keyframe (or where the streams began)
     Utime imu = 0;              // stamp of the newest IMU sample, > last
     Utime imu_before = 0;       // of the one before it
@@ -27,7 +28,8 @@ class KeyframePolicy {
     int n_imu = 0;              // samples in (last, imu]
   };
   /// Stamp of the keyframe that is due, in (last, imu]; nothing if none is due.
-  /// Tracking: the newest IMU sample's (paper Sec. III-B.1). Bootstrapping or lost: fixed intervals, also
+  /// Tracking: the newest IMU sample's (paper Sec. III-B.1), not before the useful interval is over.
+  /// Bootstrapping or lost: fixed intervals, also
   /// between IMU samples (so with a fixed rate), but not inside a hole in the IMU stream, where nothing can
   /// be interpolated.
   std::optional<Utime> Due(const Situation& situation) const;
@@ -43,7 +45,7 @@ class KeyframePolicy {
   bool always_adaptive_;
   std::int64_t n_event_, min_events_;
   int n_imu_;
-  Utime max_interval_, high_rate_interval_, fixed_interval_;
+  Utime relaxed_interval_, max_interval_, high_rate_interval_, fixed_interval_;
   double tail_px_, min_decay_us_, max_decay_us_, default_decay_us_;
 };
 

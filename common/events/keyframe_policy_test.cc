@@ -12,7 +12,7 @@ using Mode = TrackerFeedback::Mode;
 class KeyframePolicyTest : public ::testing::Test {
  protected:
   static KeyframePolicy::Situation At(Mode mode, Utime imu, std::int64_t n_events, int n_imu) {
-    return {mode, 1, 1'000'000, imu, imu - 5'000, n_events, n_imu};
+    return {mode, 1, 0, 1'000'000, imu, imu - 5'000, n_events, n_imu};
   }
   // 1500 events, 4 samples, 60 ms with 200 events; high rate: 7.3 ms.
   KeyframePolicy policy_{test::SmallOptions().keyframes, test::SmallOptions().surface};
@@ -32,6 +32,31 @@ TEST_F(KeyframePolicyTest, InOverloadTheyTakeMoreOfBoth) {
   EXPECT_EQ(policy_.Due(s), 1'040'000);
   s.n_imu = 7;
   EXPECT_FALSE(policy_.Due(s));
+}
+
+TEST_F(KeyframePolicyTest, WaitsAsLongAsTheTrackerFindsMoreOfThemOfLittleUse) {
+  auto s = At(Mode::kTracking, 1'025'000, 90'000, 5);
+  s.useful_interval = 30'000;
+  EXPECT_FALSE(policy_.Due(s));  // nearer to 25 ms than to 30 by less than half a sample
+  s.imu += 2'500, s.imu_before += 2'500;
+  EXPECT_EQ(policy_.Due(s), s.imu);
+  s.stride = 2;  // overload counts besides
+  s.n_imu = 20;
+  EXPECT_FALSE(policy_.Due(s));
+  s.imu = 1'057'500, s.imu_before = 1'052'500;
+  EXPECT_EQ(policy_.Due(s), s.imu);
+}
+
+TEST_F(KeyframePolicyTest, TheTrackersWishHasALimit) {
+  auto s = At(Mode::kTracking, 1'025'000, 90'000, 5);
+  s.useful_interval = 1'000'000;
+  EXPECT_FALSE(policy_.Due(s));
+  s.imu = 1'030'000, s.imu_before = 1'025'000;
+  EXPECT_EQ(policy_.Due(s), 1'030'000);
+  KeyframeOptions keyframes = test::SmallOptions().keyframes;
+  keyframes.relaxed_interval_ms = 0;
+  s.imu = 1'020'000, s.imu_before = 1'015'000;
+  EXPECT_EQ(KeyframePolicy(keyframes, test::SmallOptions().surface).Due(s), 1'020'000);
 }
 
 TEST_F(KeyframePolicyTest, SlowMotionMakesAKeyframeInTheEndAndStandstillTwiceAsLate) {
@@ -60,7 +85,7 @@ TEST_F(KeyframePolicyTest, AFixedRateKeepsToItself) {
 }
 
 TEST_F(KeyframePolicyTest, NothingIsInterpolatedInsideAHoleOfTheImu) {
-  EXPECT_EQ(policy_.Due({Mode::kLost, 1, 1'000'000, 1'500'000, 1'005'000, 0, 2}), 1'500'000);
+  EXPECT_EQ(policy_.Due({Mode::kLost, 1, 0, 1'000'000, 1'500'000, 1'005'000, 0, 2}), 1'500'000);
 }
 
 TEST_F(KeyframePolicyTest, DecayFollowsTheImageSpeed) {

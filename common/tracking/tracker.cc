@@ -5,6 +5,8 @@
 
 #include "common/text/format_text.h"
 #include "common/tracking/image_speed.h"
+#include "common/tracking/keyframe_need.h"
+#include "common/tracking/pose_covariance.h"
 
 namespace evit {
 namespace {
@@ -170,6 +172,8 @@ void Tracker::Track(const KeyframeInput& keyframe, TrackerOutput* out) {
   if (result.coasting.empty()) {
     SetMode(TrackerMode::kTracking, "tracking");
     ReportPose(window_.nodes().back().points, out);
+    out->useful_interval = UsefulInterval(
+        {PoseCovariance(out->information), out->covariance, window_.MeanInterval(), out->image_speed});
   } else {
     SetMode(TrackerMode::kTracking, "coasting on the IMU: " + result.coasting);
     out->quality = {};

@@ -27,7 +27,8 @@ struct TrackerOutput {
   Matrix15d information = Matrix15d::Zero();  // on the newest state, while tracking
   AlignmentQuality quality;
   int iterations = 0;
-  double image_speed = 0;  // pixels/s, 0 where unknown
+  double image_speed = 0;     // pixels/s, 0 where unknown
+  Utime useful_interval = 0;  // us: how long the next keyframe may wait (keyframe_need.h)
 };
 
 }  // namespace evit

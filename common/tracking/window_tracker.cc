@@ -39,6 +39,12 @@ void WindowTracker::ReportUncertainty(const Eigen::Vector3d& rate, TrackerOutput
   out->covariance = uncertainty_.Covariance(out->information, state().velocity, rate);
 }
 
+Utime WindowTracker::MeanInterval() const {
+  const std::deque<WindowNode>& nodes = window_.nodes();
+  const auto steps = static_cast<Utime>(nodes.size()) - 1;
+  return steps > 0 ? (nodes.back().t - nodes.front().t) / steps : 0;
+}
+
 void WindowTracker::Start(Utime t, const BodyState& state, const Matrix15d& information) {
   WindowNode node;
   node.t = aligned_at_ = t;

@@ -42,6 +42,9 @@ class WindowTracker {
   /// Fills what `out` says of how well the newest state is known. `rate`: rad/s, body frame.
   void ReportUncertainty(const Eigen::Vector3d& rate, TrackerOutput* out) const;
 
+  /// us: between the window's keyframes, in the mean; 0 where there is one alone.
+  Utime MeanInterval() const;
+
   void set_solve_budget(double seconds) { window_.set_time_budget(seconds); }
 
   /// Newest estimate. At least one node, once started.

@@ -39,6 +39,7 @@ TrackerFeedback ToFeedback(const tracker_mode_t& m) {
   TrackerFeedback f;
   f.mode = static_cast<TrackerFeedback::Mode>(m.mode);
   f.image_speed = m.image_speed;
+  f.useful_interval = m.useful_interval_us;
   f.keyframe_stride = m.keyframe_stride;
   return f;
 }

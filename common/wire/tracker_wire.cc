@@ -54,6 +54,7 @@ tracker_mode_t ToTrackerMode(const TrackerOutput& output, Utime t, std::int64_t 
   m.mode = static_cast<std::int8_t>(output.mode);
   m.reason = output.reason;
   m.image_speed = output.image_speed;
+  m.useful_interval_us = output.useful_interval;
   m.keyframe_stride = 1;
   return m;
 }

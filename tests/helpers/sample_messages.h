@@ -255,6 +255,7 @@ inline tracker_mode_t Sample<tracker_mode_t>(int /*n*/) {
   m.mode = tracker_mode_t::LOST;
   m.reason = "too few points";
   m.image_speed = 120;
+  m.useful_interval_us = 40'000;
   m.keyframe_stride = 2;
   return m;
 }
