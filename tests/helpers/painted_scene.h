@@ -73,6 +73,21 @@ class PaintedScene {
     return picture;
   }
 
+  /// CV_16UC1, `units` per metre along the optical axis, 0 where there is nothing: what a depth camera sees.
+  cv::Mat Depth(const Camera& camera, const SE3& T_map_camera, double units) const {
+    cv::Mat picture(camera.height, camera.width, CV_16U);
+    for (int row = 0; row < camera.height; ++row) {
+      for (int column = 0; column < camera.width; ++column) {
+        Eigen::Vector3d ray;
+        camera.Unproject({static_cast<double>(column), static_cast<double>(row)}, &ray);
+        const double z = Hit(T_map_camera.p, T_map_camera.q * ray).along;
+        picture.at<std::uint16_t>(row, column) =
+            static_cast<std::uint16_t>(z < 60 ? std::lround(z * units) : 0);
+      }
+    }
+    return picture;
+  }
+
   /// m, of a place to the nearest side of a rectangle.
   double DistanceToEdge(const Eigen::Vector3d& p) const {
     double best = std::numeric_limits<double>::max();
@@ -90,21 +105,26 @@ class PaintedScene {
   const std::vector<Rectangle>& rectangles() const { return rectangles_; }
 
   /// 0..255, of what a ray first meets.
-  double Grey(const Eigen::Vector3d& from, const Eigen::Vector3d& ray) const {
-    double grey = 120, nearest = std::numeric_limits<double>::max();
+  double Grey(const Eigen::Vector3d& from, const Eigen::Vector3d& ray) const { return Hit(from, ray).grey; }
+
+ private:
+  struct Met {
+    double grey = 120, along = std::numeric_limits<double>::max();  // in lengths of the ray
+  };
+  Met Hit(const Eigen::Vector3d& from, const Eigen::Vector3d& ray) const {
+    Met met;
     for (const Rectangle& r : rectangles_) {
       const Eigen::Vector3d normal = r.u.cross(r.v);
       const double s = normal.dot(r.corner - from) / normal.dot(ray);
-      if (!(s > 0) || s >= nearest) continue;
+      if (!(s > 0) || s >= met.along) continue;
       const Eigen::Vector3d at = from + s * ray - r.corner;
       const double a = at.dot(r.u) / r.u.squaredNorm(), b = at.dot(r.v) / r.v.squaredNorm();
       if (a < 0 || a > 1 || b < 0 || b > 1) continue;
-      nearest = s, grey = r.grey;
+      met = {r.grey, s};
     }
-    return grey;
+    return met;
   }
 
- private:
   std::vector<Rectangle> rectangles_;
 };
 

@@ -69,6 +69,21 @@ inline RawMessage PoseMessage(const StampedPose& s) {
   return {"geometry_msgs/PoseStamped", out.bytes()};
 }
 
+/// sensor_msgs/Image in rows without a rest.
+inline RawMessage ImageMessage(Utime t, std::uint32_t width, std::uint32_t height,
+                               const std::string& encoding, const std::string& data) {
+  RosBytes out;
+  out.Header(t).Put(height).Put(width).String(encoding).Put(std::uint8_t{0});
+  out.Put(static_cast<std::uint32_t>(data.size() / height)).String(data);
+  return {"sensor_msgs/Image", out.bytes()};
+}
+
+inline RawMessage CompressedImageMessage(Utime t, const std::string& format, const std::string& data) {
+  RosBytes out;
+  out.Header(t).String(format).String(data);
+  return {"sensor_msgs/CompressedImage", out.bytes()};
+}
+
 /// The pose as one of the other types that tell of it.
 inline RawMessage TruthMessage(const std::string& type, const StampedPose& s) {
   const bool odometry = type == "nav_msgs/Odometry";

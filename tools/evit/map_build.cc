@@ -34,10 +34,39 @@ void MakeAndWrite(const MapBuildOptions& o) {
 void AddSources(CLI::App* command, MapBuildOptions* o) {
   mapping::MapMaking& m = o->making;
   CLI::Option* images =
-      command->add_option("--images", m.images, "Folder of pictures (PNG, JPEG, ...); colour becomes grey");
-  CLI::Option* rgbd = command->add_option(
-      "--rgbd", m.rgbd,
-      "Instead: folder of images/, depth/ (16 bit, mm), poses.txt and K.txt, as for map photometric");
+      command
+          ->add_option(
+              "--images", m.images,
+              "Pictures of a camera: a folder or zip archive (PNG, JPEG, ...), or a bag of ROS 1 or 2; "
+              "named again: of a second camera on the same body")
+          ->expected(1)
+          ->take_all();
+  command
+      ->add_option("--topic", m.topics, "Images of a bag, for each --images (default: the only ones it has)")
+      ->needs(images)
+      ->expected(1)
+      ->take_all();
+  CLI::Option* depth = command->add_option(
+      "--depth", m.depth.images,
+      "Depth images (16 bit) that go with --images, by stamps: folder, zip archive or bag; edges are then at "
+      "the depth measured");
+  depth->needs(images);
+  command
+      ->add_option(
+          "--depth-camera", m.depth.camera,
+          "Calibration of the depth camera, with T_body_camera as the file of --camera (default: depth "
+          "images are registered to the pictures)")
+      ->needs(depth);
+  command->add_option("--depth-topic", m.depth.topic, "Depth images of a bag")->needs(depth);
+  command
+      ->add_option("--depth-scale", m.depth.units_per_metre,
+                   "Units of depth per metre (default: 1000, with TUM's layout 5000)")
+      ->check(CLI::PositiveNumber)
+      ->default_str("");
+  CLI::Option* rgbd = command->add_option("--rgbd", m.rgbd,
+                                          "Instead: folder of images/, depth/ (16 bit, mm), poses.txt and "
+                                          "K.txt, as for map photometric; or of TUM's "
+                                          "layout (rgb.txt, depth.txt, groundtruth.txt)");
   CLI::Option* events =
       command->add_option("--events", m.events, "Instead: LCM log with EVENTS (evit import)");
   images->excludes(rgbd)->excludes(events);
@@ -45,7 +74,7 @@ void AddSources(CLI::App* command, MapBuildOptions* o) {
   command->add_option(
       "--poses", m.poses,
       "TUM file, with --images one row for each picture in the order of names, or at any time where pictures "
-      "have stamps");
+      "have stamps: then poses are interpolated, over 0.2 s at most");
   command
       ->add_option("--poses-of", o->poses_of,
                    "What the poses are of (default: camera with --images, body with --events, as "
@@ -56,11 +85,12 @@ void AddSources(CLI::App* command, MapBuildOptions* o) {
                       "16 numbers, row-major 4x4: brings poses into the map frame (z up); as for import "
                       "(default: they are in it)");
   command
-      ->add_option(
-          "--camera", m.camera,
-          "Calibration of the camera that took the pictures: a file with the `camera` block of a rig "
-          "file")
-      ->needs(images);
+      ->add_option("--camera", m.cameras,
+                   "Calibration of the camera that took the pictures, for each --images: a file with the "
+                   "`camera` block "
+                   "of a rig file; of two cameras with T_body_camera")
+      ->expected(1)
+      ->take_all();
   command->add_option("--rig", m.rig, "Rig file of the event camera")->needs(events);
   command->add_option("--frames", m.frames,
                       "A:B, use only pictures A to B-1 of those that have a pose (or of --rgbd)");
@@ -103,6 +133,9 @@ void AddMapBuild(CLI::App* map) {
   command->footer(
       "Example: evit map build --images camera --poses camera_poses.tum --camera camera.textproto --out "
       "map.pcd\n"
+      "         evit map build --images left_camera.zip --poses gt.txt --poses-of marker --camera "
+      "left.textproto "
+      "--out map.pcd\n"
       "         evit map build --events desk.lcmlog --poses desk.lcmlog.truth.tum --rig rig.textproto --out "
       "map.pcd\n"
       "Depth comes from motion: the camera has to move sideways, some centimetres for each metre of "

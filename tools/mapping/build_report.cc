@@ -34,6 +34,22 @@ std::vector<std::string> NotesOn(const FrameList& list, const ReadFrames& frames
                     std::to_string(list.without_pose + list.frames.size()) +
                     " pictures have no pose (before, after or in a hole of the poses): left out");
   }
+  if (list.stamps_ignored) {
+    notes.push_back(
+        "stamps of the pictures are of another time than the poses: the k-th pose is taken to be the "
+        "k-th picture's");
+  }
+  constexpr Utime kFarApart = 60'000;  // us
+  if (list.by_stamp && list.pose_interval > kFarApart) {
+    notes.push_back(
+        "poses are " + std::to_string(list.pose_interval / 1000) +
+        " ms apart: between them the motion is taken to be even, which a hand's is not; poses every "
+        "20 ms would do");
+  }
+  if (frames.unreadable > 0) {
+    notes.push_back(std::to_string(frames.unreadable) + " of " + std::to_string(frames.read) +
+                    " pictures cannot be read, and are left out; the first: " + frames.first_unreadable);
+  }
   if (frames.poor > 0) {
     notes.push_back(std::to_string(frames.poor) + " of " + std::to_string(frames.read) +
                     " pictures show few edges (blurred, dark, covered, or a bare wall): left out");

@@ -2,108 +2,154 @@
 
 #include <algorithm>
 #include <mutex>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "common/mapping/rectifier.h"
 #include "common/parallel/parallel_for.h"
+#include "tools/formats/frames/decode_picture.h"
 
 namespace evit::mapping {
 namespace {
 
 constexpr std::size_t kLeastEdges = 200;  // of a frame that shows something
-constexpr int kSamples = 9;               // pictures that the contrast of edges is found from
+constexpr std::size_t kSamples = 9;       // pictures that the contrast of edges is found from
 constexpr double kLeastContrast = 0.12;   // of edges: below it, noise looks like them
 
-cv::Mat ReadGrey(const std::string& path, const Camera& camera) {
-  cv::Mat image = cv::imread(path, cv::IMREAD_ANYDEPTH | cv::IMREAD_GRAYSCALE);
-  if (image.empty()) throw std::runtime_error(path + ": cannot be read as a picture");
-  if (image.depth() == CV_16U) image.convertTo(image, CV_8U, 1.0 / 257);
-  if (image.type() != CV_8UC1) throw std::runtime_error(path + ": expected 8 or 16 bits per channel");
-  if (image.cols != camera.width || image.rows != camera.height) {
-    throw std::runtime_error(path + ": is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) +
-                             ", but the camera file says " + std::to_string(camera.width) + "x" +
-                             std::to_string(camera.height) +
-                             "; give the calibration of this camera, scaled to the pictures' size");
-  }
-  return image;
+void RequireSize(const cv::Mat& image, const Camera& camera, const std::string& name) {
+  if (image.cols == camera.width && image.rows == camera.height) return;
+  throw std::runtime_error(name + ": is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) +
+                           ", but the camera file says " + std::to_string(camera.width) + "x" +
+                           std::to_string(camera.height) +
+                           "; give the calibration of this camera, scaled to the pictures' size");
 }
 
 // Cameras compress contrast by their gamma, and rooms differ: as low as it takes for a middling picture to
 // show edges as long as twice around it.
-double FindContrast(const FrameList& list, const Camera& camera, const Rectifier& rectifier,
-                    const FrameReaderOptions& options) {
-  const int n = std::min(kSamples, static_cast<int>(list.frames.size()));
+double FindContrast(const std::vector<std::size_t>& indices, formats::FrameSource* source,
+                    const Camera& camera, const Rectifier& rectifier, const FrameReaderOptions& options) {
+  const std::size_t n = std::min(kSamples, indices.size());
+  std::vector<std::size_t> samples;
+  for (std::size_t k = 0; k < n; ++k) samples.push_back(indices[(2 * k + 1) * indices.size() / (2 * n)]);
   std::vector<cv::Mat> images(n);
-  ParallelFor(n, options.threads, [&](int k) {
-    const std::size_t at =
-        (2 * static_cast<std::size_t>(k) + 1) * list.frames.size() / (2 * static_cast<std::size_t>(n));
-    images[k] = rectifier.Rectify(ReadGrey(list.frames[at].path, camera));
-  });
+  VisitPictures(
+      source, samples, options.threads,
+      [&](std::size_t k, const cv::Mat& image) {
+        RequireSize(image, camera, source->frames()[samples[k]].name);
+        images[k] = rectifier.Rectify(image);
+      },
+      [](std::size_t, const std::string&) {});
   const auto enough = static_cast<std::size_t>(4 * (camera.width + camera.height));
   double contrast = options.edges.sure_contrast;
   for (; contrast > kLeastContrast; contrast = std::max(kLeastContrast, 0.7 * contrast)) {
     EdgeDetectorOptions detector = options.edges;
     detector.sure_contrast = contrast, detector.min_contrast = contrast / 2;
     std::vector<std::size_t> counts(n);
-    ParallelFor(n, options.threads,
-                [&](int k) { counts[k] = DetectEdges(images[k], rectifier.valid(), detector).size(); });
+    ParallelFor(static_cast<int>(n), options.threads, [&](int k) {
+      counts[k] = images[k].empty() ? 0 : DetectEdges(images[k], rectifier.valid(), detector).size();
+    });
     std::sort(counts.begin(), counts.end());
     if (n == 0 || counts[counts.size() / 2] >= enough) break;
   }
   return contrast;
 }
 
-}  // namespace
-
-ReadFrames ReadEdges(const FrameList& list, const Camera& camera, const FrameReaderOptions& options,
-                     const std::function<void(double)>& progress) {
-  const Rectifier rectifier(camera);
-  const std::size_t stride =
-      std::max<std::size_t>(1, (list.frames.size() + options.max_frames - 1) / options.max_frames);
-  const int n = static_cast<int>((list.frames.size() + stride - 1) / stride);
-  EdgeDetectorOptions detector = options.edges;
-  if (options.find_contrast) {
-    detector.sure_contrast = FindContrast(list, camera, rectifier, options);
-    detector.min_contrast = detector.sure_contrast / 2;
-  }
-  std::vector<std::vector<EdgePixel>> edges(n);
-  std::mutex mutex;  // of progress
-  int done = 0;
-  ParallelFor(n, options.threads, [&](int k) {
-    const cv::Mat image = rectifier.Rectify(ReadGrey(list.frames[k * stride].path, camera));
-    edges[k] = DetectEdges(image, rectifier.valid(), detector);
-    const std::lock_guard<std::mutex> lock(mutex);
-    progress(++done / static_cast<double>(n));
-  });
+// Fewer edges than this, and a picture is blurred, dark or covered.
+std::size_t LeastEdges(const std::vector<std::vector<EdgePixel>>& edges, double share) {
   std::vector<std::size_t> counts;
   counts.reserve(edges.size());
   for (const auto& e : edges) counts.push_back(e.size());
   std::sort(counts.begin(), counts.end());
-  const std::size_t least =
-      counts.empty()
-          ? 0
-          : std::max(kLeastEdges, static_cast<std::size_t>(options.min_share_of_edges *
-                                                           static_cast<double>(counts[counts.size() / 2])));
+  if (counts.empty()) return 0;
+  return std::max(kLeastEdges,
+                  static_cast<std::size_t>(share * static_cast<double>(counts[counts.size() / 2])));
+}
+
+}  // namespace
+
+void VisitPictures(formats::FrameSource* source, const std::vector<std::size_t>& chosen, int threads,
+                   const std::function<void(std::size_t, const cv::Mat&)>& work,
+                   const std::function<void(std::size_t, const std::string&)>& unreadable) {
+  const std::size_t at_once = 4 * static_cast<std::size_t>(threads);
+  std::mutex mutex;  // of unreadable
+  std::vector<formats::StoredPicture> stored;
+  for (std::size_t begin = 0; begin < chosen.size(); begin += at_once) {
+    const std::size_t n = std::min(at_once, chosen.size() - begin);
+    stored.assign(n, {});
+    for (std::size_t k = 0; k < n; ++k) {
+      try {
+        stored[k] = source->Fetch(chosen[begin + k]);
+      } catch (const std::runtime_error& error) {
+        unreadable(begin + k, error.what());
+      }
+    }
+    ParallelFor(static_cast<int>(n), threads, [&](int k) {
+      if (stored[k].bytes.empty() && stored[k].encoding.empty()) return;  // as told above
+      cv::Mat image;
+      try {
+        image = formats::DecodeGrey(stored[k], source->frames()[chosen[begin + k]].name);
+      } catch (const std::runtime_error& error) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        unreadable(begin + k, error.what());
+        return;
+      }
+      work(begin + k, image);
+    });
+  }
+}
+
+ReadFrames ReadEdges(const FrameList& list, formats::FrameSource* source, const Camera& camera,
+                     const FrameReaderOptions& options, const std::function<void(double)>& progress) {
+  const Rectifier rectifier(camera);
+  const std::size_t stride =
+      std::max<std::size_t>(1, (list.frames.size() + options.max_frames - 1) / options.max_frames);
+  std::vector<Frame> frames;
+  std::vector<std::size_t> indices;
+  for (std::size_t k = 0; k < list.frames.size(); k += stride) {
+    frames.push_back(list.frames[k]);
+    indices.push_back(list.frames[k].index);
+  }
+  EdgeDetectorOptions detector = options.edges;
+  if (options.find_contrast) {
+    detector.sure_contrast = FindContrast(indices, source, camera, rectifier, options);
+    detector.min_contrast = detector.sure_contrast / 2;
+  }
   ReadFrames result;
-  result.read = static_cast<std::size_t>(n);
+  std::vector<std::vector<EdgePixel>> edges(frames.size());
+  std::mutex mutex;  // of progress
+  std::size_t done = 0;
+  VisitPictures(
+      source, indices, options.threads,
+      [&](std::size_t k, const cv::Mat& image) {
+        RequireSize(image, camera, source->frames()[indices[k]].name);
+        edges[k] = DetectEdges(rectifier.Rectify(image), rectifier.valid(), detector);
+        const std::lock_guard<std::mutex> lock(mutex);
+        progress(static_cast<double>(++done) / static_cast<double>(frames.size()));
+      },
+      [&](std::size_t, const std::string& why) {
+        if (result.unreadable++ == 0) result.first_unreadable = why;
+      });
+  if (result.unreadable == frames.size()) throw std::runtime_error(result.first_unreadable);
+  const std::size_t least = LeastEdges(edges, options.min_share_of_edges);
+  result.read = frames.size();
   result.contrast = detector.sure_contrast;
-  for (int k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < frames.size(); ++k) {
     if (edges[k].size() < least) {
       ++result.poor;
       continue;
     }
     const Camera& pinhole = rectifier.camera();
-    result.views.push_back({list.frames[k * stride].T_map_camera, pinhole,
+    result.views.push_back({frames[k].T_map_camera, pinhole,
                             EdgeImage(pinhole.width, pinhole.height, std::move(edges[k]), true)});
-    result.stamps.push_back(list.frames[k * stride].t);
+    result.stamps.push_back(frames[k].t);
+    result.indices.push_back(frames[k].index);
   }
+  result.poor -= result.unreadable;
   if (result.views.size() < 3) {
-    throw std::runtime_error(list.frames.front().path + " and the others: " +
+    throw std::runtime_error(source->frames()[indices.front()].name + " and the others: " +
                              std::to_string(result.views.size()) + " of " + std::to_string(result.read) +
-                             " pictures show edges, a map needs three; the lens was covered, it was dark, or "
-                             "there is no texture (--contrast lowers what counts as an edge)");
+                             " pictures show edges, a map needs three; the lens was covered, it was dark or "
+                             "blurred, or there is no texture (--contrast lowers what counts as an edge)");
   }
   return result;
 }

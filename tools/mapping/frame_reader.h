@@ -2,12 +2,13 @@
 
 #include <cstddef>
 #include <functional>
+#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
 #include "common/mapping/edge_detector.h"
 #include "common/mapping/posed_edges.h"
-#include "tools/mapping/frame_folder.h"
+#include "tools/mapping/frame_list.h"
 
 namespace evit::mapping {
 
@@ -21,15 +22,24 @@ struct FrameReaderOptions {
 
 struct ReadFrames {
   std::vector<PosedEdges> views;
-  std::vector<Utime> stamps;  // of each
+  std::vector<Utime> stamps;         // of each
+  std::vector<std::size_t> indices;  // of each, in its source
   std::size_t read = 0;
-  std::size_t poor = 0;  // left out: blurred, dark, covered, or nothing to see
-  double contrast = 0;   // that edges were asked for; 0: none was looked for
+  std::size_t poor = 0;          // left out: blurred, dark, covered, or nothing to see
+  std::size_t unreadable = 0;    // left out: damaged or cut off,
+  std::string first_unreadable;  // this and why
+  double contrast = 0;           // that edges were asked for; 0: none was looked for
 };
 
+/// Decodes pictures by several threads and calls work(k, picture) for the k-th of `chosen`, in any order.
+/// What decoding throws goes to unreadable(k, what).
+void VisitPictures(formats::FrameSource* source, const std::vector<std::size_t>& chosen, int threads,
+                   const std::function<void(std::size_t, const cv::Mat&)>& work,
+                   const std::function<void(std::size_t, const std::string&)>& unreadable);
+
 /// Reads pictures, takes out the lens distortion and finds their edges. Throws std::runtime_error naming the
-/// picture: not readable, of another size than the camera's. And where fewer than three show any edges.
-ReadFrames ReadEdges(const FrameList& list, const Camera& camera, const FrameReaderOptions& options,
-                     const std::function<void(double)>& progress);
+/// picture: of another size than the camera's; and where fewer than three can be read and show edges.
+ReadFrames ReadEdges(const FrameList& list, formats::FrameSource* source, const Camera& camera,
+                     const FrameReaderOptions& options, const std::function<void(double)>& progress);
 
 }  // namespace evit::mapping

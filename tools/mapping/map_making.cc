@@ -1,79 +1,20 @@
 #include "tools/mapping/map_making.h"
 
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "common/config/rig_file.h"
-#include "tools/mapping/build_report.h"
-#include "tools/mapping/rgbd_views.h"
+#include "tools/mapping/image_making.h"
 #include "tools/terminal/progress_bar.h"
 
 namespace evit::mapping {
 namespace {
-
-void Note(const FrameList& list, const ReadFrames& frames) {
-  for (const std::string& note : NotesOn(list, frames)) std::fprintf(stderr, "note: %s\n", note.c_str());
-}
 
 MadeMap Build(ReadFrames frames, const MapBuilderOptions& options) {
   terminal::ProgressBar bar("building");
   return {BuildMap(std::move(frames.views), options,
                    [&](double share, const std::string& what) { bar.Show(share, what); }),
           std::move(frames.stamps)};
-}
-
-// T_map_camera, by the stamps of the pictures.
-Trajectory CameraPoses(const MapMaking& m, const MountedCamera& camera) {
-  const PosedFrame of = m.poses_of.value_or(PosedFrame::kCamera);
-  if (of != PosedFrame::kCamera && !camera.mounted) {
-    throw std::runtime_error(m.camera +
-                             ": T_body_camera is missing: where the camera sits on what the poses of " +
-                             m.poses + " tell of");
-  }
-  SE3 T_posed_camera;
-  if (of != PosedFrame::kCamera) T_posed_camera = camera.T_body_camera;
-  if (of == PosedFrame::kMarker) T_posed_camera = camera.T_marker_body * camera.T_body_camera;
-  Trajectory poses = ReadTum(m.poses);
-  for (StampedPose& pose : poses) {
-    pose.pose = m.T_map_world * pose.pose * T_posed_camera;
-    pose.t -= camera.time_offset;
-  }
-  return poses;
-}
-
-MadeMap MakeFromImages(const MapMaking& m) {
-  if (m.poses.empty() || m.camera.empty()) throw std::runtime_error("--images needs --poses and --camera");
-  const MountedCamera camera = LoadMountedCamera(m.camera);
-  FrameList list = ListFrames(m.images, CameraPoses(m, camera), m.poses);
-  if (!m.frames.empty()) TakeRange(m.frames, &list);
-  ReadFrames frames;
-  {
-    terminal::ProgressBar bar("reading " + std::to_string(list.frames.size()) + " pictures");
-    bar.Show(0);
-    frames = ReadEdges(list, camera.camera, m.reader, [&](double share) { bar.Show(share); });
-  }
-  Note(list, frames);
-  if (frames.contrast < m.reader.edges.sure_contrast)
-    std::fprintf(stderr, "note: few edges are strong: --contrast %.2f was taken\n", frames.contrast);
-  return Build(std::move(frames), m.build);
-}
-
-MadeMap MakeFromRgbd(const MapMaking& m) {
-  const auto [begin, end] =
-      m.frames.empty() ? std::make_pair(std::size_t{0}, std::size_t{1'000'000}) : ParseRange(m.frames);
-  RgbdEdges edges;
-  {
-    terminal::ProgressBar bar("reading " + m.rgbd);
-    bar.Show(0);
-    edges = ReadRgbd(m.rgbd, begin, end, m.reader, m.build.stereo.max_depth_m,
-                     [&](double share) { bar.Show(share); });
-  }
-  Note({}, edges.frames);
-  terminal::ProgressBar bar("building");
-  return {BuildMapFromDepths(std::move(edges.frames.views), std::move(edges.depths), m.build,
-                             [&](double share, const std::string& what) { bar.Show(share, what); }),
-          std::move(edges.frames.stamps)};
 }
 
 Trajectory PartOf(const Trajectory& all, const std::optional<std::pair<double, double>>& seconds,
@@ -115,7 +56,7 @@ MadeMap MakeFromEvents(const MapMaking& m) {
     if (found <= 0 || near) break;
     depth = found;
   }
-  Note({}, frames);
+  PrintNotes({}, frames);
   const double lag =
       options.typical_depth_m > 0 ? TakeOutLag(options.typical_depth_m, options, &frames.views) : 0;
   MadeMap made = Build(std::move(frames), options);

@@ -27,7 +27,9 @@ std::string FindMap(const std::string& folder, const paper::Sequence& sequence) 
 void RequirePictures(const std::string& folder, const paper::Sequence& sequence, RecordedFiles* files) {
   const std::string base = files->folder + "/" + sequence.name() + "1.synced.";
   for (const std::string& path : {base + "left_camera", files->folder + "/left_camera"}) {
-    if (!files->folder.empty() && fs::is_directory(path)) files->pictures = path;
+    for (const std::string& pictures : {path + ".zip", path}) {
+      if (!files->folder.empty() && fs::exists(pictures)) files->pictures = pictures;
+    }
   }
   files->truth = base + "gt.txt";
   if (!files->pictures.empty()) return;
@@ -35,7 +37,7 @@ void RequirePictures(const std::string& folder, const paper::Sequence& sequence,
       folder + ": holds " + sequence.name() + " but no map of its scene: " + sequence.scene() +
       ".pcd, .ply or .txt is expected (z up, metres), or `map` in the configuration, or the "
       "left regular camera's pictures to make one of, in " +
-      base + "left_camera/");
+      base + "left_camera/ or .zip");
 }
 
 std::string FindPhotometricMap(const std::string& folder, const paper::Sequence& sequence) {

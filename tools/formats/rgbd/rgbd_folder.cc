@@ -6,16 +6,14 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
-#include <string_view>
 
 #include "common/files/table_reader.h"
+#include "common/text/natural_order.h"
 
 namespace evit::formats {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
 // Rows of `columns` numbers.
 std::vector<std::vector<double>> ReadRows(const std::string& path, std::size_t columns) {
@@ -30,31 +28,6 @@ std::vector<std::vector<double>> ReadRows(const std::string& path, std::size_t c
     table.End();
   }
   return rows;
-}
-
-// The number whose digits begin at `at`, which moves behind them, without leading zeros.
-std::string_view Digits(std::string_view name, std::size_t* at) {
-  while (*at < name.size() && name[*at] == '0') ++*at;
-  const std::size_t begin = *at;
-  while (*at < name.size() && IsDigit(name[*at])) ++*at;
-  return name.substr(begin, *at - begin);
-}
-
-// The order people give files: numbers in names by their value, 2.png before 10.png.
-bool NaturallyBefore(const std::string& a, const std::string& b) {
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (IsDigit(a[i]) && IsDigit(b[j])) {
-      const std::string_view m = Digits(a, &i), n = Digits(b, &j);
-      if (m.size() != n.size()) return m.size() < n.size();
-      if (m != n) return m < n;
-    } else {
-      if (a[i] != b[j]) return a[i] < b[j];
-      ++i, ++j;
-    }
-  }
-  if (i < a.size() || j < b.size()) return j < b.size();
-  return a < b;  // the same but for leading zeros
 }
 
 SE3 PoseOf(const std::vector<double>& row, const std::string& path, std::size_t number) {
