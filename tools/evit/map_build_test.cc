@@ -1,6 +1,7 @@
 // `evit map build` and what changes maps, the program.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -34,7 +35,7 @@ struct Outcome {
 class MapBuildTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = fs::path(testing::TempDir()) / "map_build";
+    folder_ = fs::path(testing::TempDir()) / ("map_build_" + std::to_string(::getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "pictures");
     Camera camera;
