@@ -30,6 +30,9 @@ class LocatingTracker final : public MapTracker {
   VisibilityQuery QueryAfter(const KeyframeInput& keyframe) const override {
     return tracker_->QueryAfter(keyframe);
   }
+  VisibilityQuery QueryBeyond(const KeyframeInput& keyframe) const override {
+    return tracker_->QueryBeyond(keyframe);
+  }
   bool Suffices(const VisibilityQuery& answered, const VisibilityQuery& query) const override {
     return !searching_ && tracker_->Suffices(answered, query);
   }

@@ -13,6 +13,7 @@
 #include "common/files/whole_file.h"
 #include "common/map/map_attributes.h"
 #include "common/map/map_formats.h"
+#include "common/simd/lanes.h"
 #include "common/text/words.h"
 
 namespace evit {
@@ -141,6 +142,33 @@ void WriteMap(const std::string& path, const PointMap& map) {
   WriteWhole(path, ply ? PlyBytes(map) : PcdBytes(map));
 }
 
+namespace {
+
+// Squared distance of points[k] to its nearest neighbour, kLanes of them at a time. Requires another point.
+EVIT_MULTIVERSION float NearestSquared(const std::vector<Eigen::Vector3f>& points, std::size_t k) {
+  alignas(64) float best[kLanes];
+  std::fill_n(best, kLanes, std::numeric_limits<float>::max());
+  const float x = points[k].x(), y = points[k].y(), z = points[k].z();
+  const auto search = [&](std::size_t begin, std::size_t end) {
+    const float* const p = points.front().data();
+    std::size_t j = begin;
+    for (; j + kLanes <= end; j += kLanes) {
+      for (int l = 0; l < kLanes; ++l) {
+        const float* const q = p + 3 * (j + l);
+        const float dx = q[0] - x, dy = q[1] - y, dz = q[2] - z;
+        const float d2 = dx * dx + dy * dy + dz * dz;
+        best[l] = d2 < best[l] ? d2 : best[l];
+      }
+    }
+    for (; j < end; ++j) best[0] = std::min(best[0], (points[j] - points[k]).squaredNorm());
+  };
+  search(0, k);
+  search(k + 1, points.size());
+  return *std::min_element(best, best + kLanes);
+}
+
+}  // namespace
+
 MapSummary Summarize(const PointMap& map) {
   const auto& points = map.points;
   MapSummary summary;
@@ -161,13 +189,8 @@ MapSummary Summarize(const PointMap& map) {
   // Nearest neighbours of some 200 points among all: exact, and no index needed.
   std::vector<float> nearest;
   const std::size_t stride = std::max<std::size_t>(1, points.size() / 200);
-  for (std::size_t k = 0; k < points.size() && points.size() > 1; k += stride) {
-    float best = std::numeric_limits<float>::max();
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      if (j != k) best = std::min(best, (points[j] - points[k]).squaredNorm());
-    }
-    nearest.push_back(best);
-  }
+  for (std::size_t k = 0; k < points.size() && points.size() > 1; k += stride)
+    nearest.push_back(NearestSquared(points, k));
   if (!nearest.empty()) {
     std::nth_element(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2),
                      nearest.end());

@@ -1,6 +1,7 @@
 #include "common/map/spread_subset.h"
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -32,22 +33,22 @@ struct Draws {
 Draws DrawPoints(const std::vector<ProjectedPoint>& points, const std::vector<std::int32_t>& tile,
                  const std::vector<std::uint64_t>& bound, std::uint64_t seed) {
   const std::uint64_t base = Mix(seed);
-  std::vector<std::uint64_t> numbers(points.size());
-  for (std::size_t k = 0; k < points.size(); ++k)
-    numbers[k] = Mix(base ^ static_cast<std::uint64_t>(points[k].id));
+  // A fraction of the points: found in one go over all of them, without a branch, which would be hard to
+  // predict.
+  const std::unique_ptr<Draw[]> drawn(new Draw[points.size() + 1]);
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const std::uint64_t number = Mix(base ^ static_cast<std::uint64_t>(points[k].id));
+    drawn[n] = {number, points[k].id, static_cast<std::int32_t>(k)};
+    n += number <= bound[tile[k]] ? 1 : 0;
+  }
   Draws draws;
   draws.begin.assign(bound.size() + 1, 0);
-  for (std::size_t k = 0; k < points.size(); ++k)
-    draws.begin[tile[k] + 1] += numbers[k] <= bound[tile[k]] ? 1 : 0;
+  for (std::size_t d = 0; d < n; ++d) ++draws.begin[tile[drawn[d].place] + 1];
   std::partial_sum(draws.begin.begin(), draws.begin.end(), draws.begin.begin());
-  draws.list.resize(static_cast<std::size_t>(draws.begin.back()) + 1);  // room for one that does not count
+  draws.list.resize(n);
   std::vector<std::int32_t> at(draws.begin.begin(), draws.begin.end() - 1);
-  for (std::size_t k = 0; k < points.size(); ++k) {  // no branch: hard to predict
-    const bool drawn = numbers[k] <= bound[tile[k]];
-    const std::int32_t to = drawn ? at[tile[k]] : draws.begin.back();
-    draws.list[to] = {numbers[k], points[k].id, static_cast<std::int32_t>(k)};
-    at[tile[k]] += drawn ? 1 : 0;
-  }
+  for (std::size_t d = 0; d < n; ++d) draws.list[at[tile[drawn[d].place]]++] = drawn[d];
   return draws;
 }
 

@@ -29,7 +29,8 @@ TEST(UsefulInterval, IsTheSameWhateverTheIntervalSoFar) {
   twice.total += twice.random;
   twice.random *= 2;
   twice.interval *= 2;
-  EXPECT_NEAR(static_cast<double>(UsefulInterval(twice)), static_cast<double>(UsefulInterval(Need(6, 100))), 1);
+  EXPECT_NEAR(static_cast<double>(UsefulInterval(twice)), static_cast<double>(UsefulInterval(Need(6, 100))),
+              1);
 }
 
 TEST(UsefulInterval, FastMotionMakesItShort) {

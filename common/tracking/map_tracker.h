@@ -35,6 +35,9 @@ class MapTracker {
   /// The same for the keyframe after this one, before it is processed: from its IMU samples, so that the
   /// answer comes while it is being processed. For use while tracking.
   virtual VisibilityQuery QueryAfter(const KeyframeInput& keyframe) const = 0;
+  /// What to ask for where that view needs other points than there are: a view farther along the motion,
+  /// whose points do for that one too and for longer.
+  virtual VisibilityQuery QueryBeyond(const KeyframeInput& keyframe) const { return QueryAfter(keyframe); }
   /// Whether the answer to one of these queries, the last that was added, still does for another: it need not
   /// be asked. While tracking only.
   virtual bool Suffices(const VisibilityQuery& /*answered*/, const VisibilityQuery& /*query*/) const {

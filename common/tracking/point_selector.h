@@ -17,7 +17,8 @@ namespace evit {
 class PointSelector {
  public:
   static constexpr Utime kQueryAhead =
-      20'000;  // us ahead of the newest keyframe, where nothing better is known
+      20'000;                                // us ahead of the newest keyframe, where nothing better is known
+  static constexpr double kLeadShare = 0.5;  // of the margin: how far beyond the next view is asked for
   static constexpr Utime kFarthestAhead = 50'000;  // us: beyond that a prediction leaves the margin anyway
 
   /// `lag_px`: how far events are behind the edges that cause them.

@@ -64,11 +64,25 @@ VisibilityQuery Tracker::NextQuery() const {
   return points_.QueryFrom(pose);
 }
 
-VisibilityQuery Tracker::QueryAfter(const KeyframeInput& keyframe) const {
+VisibilityQuery Tracker::QueryAfter(const KeyframeInput& keyframe) const { return QueryAfter(keyframe, 0); }
+
+// Half of what the next view may be away from the one that was asked for is used up at once, the other half
+// is a reserve for what motion brings; the points then do until the view is as far on the other side.
+VisibilityQuery Tracker::QueryBeyond(const KeyframeInput& keyframe) const {
+  constexpr double kLongest = 0.1;  // s: farther, a prediction is a guess
+  const VisibilityQuery next = QueryAfter(keyframe);
+  if (mode_ != TrackerMode::kTracking || !(image_speed_ > 0)) return next;
+  const VisibilityQuery beyond =
+      QueryAfter(keyframe, std::min(PointSelector::kLeadShare * next.margin_px / image_speed_, kLongest));
+  return points_.Suffice(beyond, next) ? beyond : next;
+}
+
+// `further`: s, beyond the next keyframe.
+VisibilityQuery Tracker::QueryAfter(const KeyframeInput& keyframe, double further) const {
   if (mode_ != TrackerMode::kTracking || keyframe.imu.empty()) return NextQuery();
   const Utime ahead = std::clamp<Utime>(keyframe.t - state_time_, 0, PointSelector::kFarthestAhead);
   const Eigen::Vector3d rate = keyframe.imu.back().gyro - state().bias.gyro;
-  return points_.QueryFrom(PoseAfter(window_.Predict(keyframe), rate, ToSeconds(ahead)));
+  return points_.QueryFrom(PoseAfter(window_.Predict(keyframe), rate, ToSeconds(ahead) + further));
 }
 
 void Tracker::AddVisible(const std::vector<std::int32_t>& ids, const std::vector<Eigen::Vector3f>& points) {
@@ -185,9 +199,10 @@ void Tracker::ReportWindow(TrackerOutput* out) const {
   for (const WindowNode& n : window_.nodes()) out->nodes.push_back({n.t, n.seq, n.state});
 }
 
-void Tracker::ReportPose(const AlignmentPoints& points, TrackerOutput* out) const {
+void Tracker::ReportPose(const AlignmentPoints& points, TrackerOutput* out) {
   out->has_pose = true;
-  out->image_speed = MedianImageSpeed(alignment_, points, state().T_map_body, state().velocity, rate_);
+  out->image_speed = image_speed_ =
+      MedianImageSpeed(alignment_, points, state().T_map_body, state().velocity, rate_);
 }
 
 }  // namespace evit

@@ -24,6 +24,7 @@ class Tracker final : public MapTracker {
   void Start(Utime t, const BodyState& state, const Matrix15d& information) override;
   VisibilityQuery NextQuery() const override;
   VisibilityQuery QueryAfter(const KeyframeInput& keyframe) const override;
+  VisibilityQuery QueryBeyond(const KeyframeInput& keyframe) const override;
   bool Suffices(const VisibilityQuery& answered, const VisibilityQuery& query) const override {
     return mode_ == TrackerMode::kTracking && points_.Suffice(answered, query);
   }
@@ -48,7 +49,8 @@ class Tracker final : public MapTracker {
   void Bootstrap(const KeyframeInput& keyframe, bool follows, TrackerOutput* out);
   void Track(const KeyframeInput& keyframe, TrackerOutput* out);
   void ReportWindow(TrackerOutput* out) const;
-  void ReportPose(const AlignmentPoints& points, TrackerOutput* out) const;
+  VisibilityQuery QueryAfter(const KeyframeInput& keyframe, double further) const;
+  void ReportPose(const AlignmentPoints& points, TrackerOutput* out);
 
   FailureOptions limits_;
   AlignmentSettings alignment_;
@@ -60,6 +62,7 @@ class Tracker final : public MapTracker {
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s, body frame
   Utime state_time_ = 0;                            // us
   Utime last_interval_ = 0;                         // us, between the newest keyframes
+  double image_speed_ = 0;                          // pixels/s, of the newest; 0: unknown
 };
 
 }  // namespace evit

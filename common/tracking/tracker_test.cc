@@ -93,6 +93,30 @@ TEST(Tracker, FindsTheMapAgainWhileTheBodyMoves) {
   EXPECT_LT((out.nodes.back().state.T_map_body.p - motion.State(ToSeconds(t)).T_map_body.p).norm(), 0.02);
 }
 
+TEST(Tracker, AsksForAViewFartherAlongTheMotionThatDoesForTheNextKeyframeToo) {
+  const Motion motion{0.4, 0.3};
+  TrackerOptions options = TestOptions();
+  options.points.margin_px = 60;
+  Bench bench(options, motion.State(1.0).T_map_body);
+  bench.motion = motion;
+  Utime t = 1'000'000;
+  ASSERT_EQ(bench.UntilTracking(&t).mode, TrackerMode::kTracking);
+  int farther = 0;
+  for (int k = 0; k < 40; ++k) {
+    ASSERT_EQ(bench.Step(t += 25'000, bench.room).mode, TrackerMode::kTracking);
+    KeyframeInput next;
+    next.t = t + 25'000;
+    next.imu = motion.Samples(t, next.t, bench.bias);
+    const VisibilityQuery needed = bench.tracker->QueryAfter(next), asked = bench.tracker->QueryBeyond(next);
+    EXPECT_TRUE(bench.tracker->Suffices(asked, needed));
+    const Eigen::Vector3d step = needed.T_map_camera.p - bench.tracker->state().T_map_body.p,
+                          lead = asked.T_map_camera.p - needed.T_map_camera.p;
+    const Eigen::Vector3d v = bench.tracker->state().velocity;
+    farther += lead.dot(v) > 0 && step.norm() > 0 ? 1 : 0;
+  }
+  EXPECT_GT(farther, 25);
+}
+
 TEST(Tracker, LateEventsCountAlongTheMotion) {
   constexpr double kSigma = 0.01;  // s
   const Motion motion;

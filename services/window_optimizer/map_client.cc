@@ -23,11 +23,10 @@ void MapClient::Ask(const MapTracker& tracker, const VisibilityQuery& query, Clo
 }
 
 void MapClient::AskAhead(const MapTracker& tracker, const KeyframeInput& keyframe, Clock::time_point now) {
-  const VisibilityQuery query = tracker.QueryAfter(keyframe);
-  if (answered() && served_ && tracker.Suffices(*served_, query)) {
+  if (answered() && served_ && tracker.Suffices(*served_, tracker.QueryAfter(keyframe))) {
     ++status_->Counter("MAP_QUERY.spared");
   } else {
-    Ask(tracker, query, now);
+    Ask(tracker, tracker.QueryBeyond(keyframe), now);
   }
 }
 
