@@ -7,10 +7,10 @@
 #include <random>
 
 #include "bench/counters.h"
+#include "tools/formats/hdf5/event_file_writer.h"
 #include "tools/formats/import/stream_writer.h"
 #include "tools/formats/prophesee/evt3_writer.h"
 #include "tools/formats/recognition/import_recording.h"
-#include "tools/formats/vector/event_file_writer.h"
 
 namespace evit::bench {
 namespace {

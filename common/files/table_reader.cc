@@ -223,7 +223,10 @@ void TableReader::End() {
 }
 
 void TableReader::Fail(const std::string& what) const {
-  throw std::runtime_error(path_ + ":" + std::to_string(line_) + ": " + what);
+  std::string printable = what.substr(0, 300);  // damaged files quote whatever they hold
+  std::replace_if(
+      printable.begin(), printable.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  throw std::runtime_error(path_ + ":" + std::to_string(line_) + ": " + printable);
 }
 
 double TableReader::share() const {

@@ -10,10 +10,19 @@
 namespace evit {
 namespace {
 
+// The sign of micro, in UTF-8 (two code points) or Latin-1, as the u that stands for it.
+std::string WithoutMicroSign(std::string word) {
+  for (const char* sign : {"\xC2\xB5", "\xCE\xBC", "\xB5"}) {
+    for (std::size_t at = word.find(sign); at != std::string::npos; at = word.find(sign))
+      word.replace(at, std::char_traits<char>::length(sign), "u");
+  }
+  return word;
+}
+
 // A word in lower case, taken apart at everything that is no letter: "#timestamp[ns]" to "timestamp", "ns".
 std::vector<std::string> Letters(const std::string& word) {
   std::vector<std::string> parts(1);
-  for (const char c : word) {
+  for (const char c : WithoutMicroSign(word)) {
     if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
       parts.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     } else if (!parts.back().empty()) {
@@ -59,6 +68,38 @@ Steps StepsOf(const std::vector<double>& stamps) {
   return out;
 }
 
+// How fine the stamps are written.
+struct Grain {
+  std::size_t decimals = 0;  // most that any has, without zeros at the end
+  bool thousands = true;     // all are whole thousands
+};
+
+Grain GrainOf(const std::vector<std::string>& words) {
+  Grain grain;
+  for (const std::string& word : words) {
+    const std::size_t point = word.find('.'), last = word.find_last_not_of('0');
+    if (word.find_first_of("eE") != std::string::npos) return {99, false};
+    if (point != std::string::npos) grain.decimals = std::max(grain.decimals, std::max(last, point) - point);
+    const std::string whole = word.substr(0, point);
+    grain.thousands &= whole == "0" || (whole.size() > 3 && whole.compare(whole.size() - 3, 3, "000") == 0);
+  }
+  grain.thousands &= grain.decimals == 0;
+  return grain;
+}
+
+// Clocks of event cameras count microseconds: written as milliseconds these have three decimals, as
+// nanoseconds three zeros. Nothing where the stamps are too few, or the rows too far apart for events.
+std::optional<TimeUnit> UnitOfMicroseconds(const std::vector<std::string>& words, const Steps& steps,
+                                           double slowest_s) {
+  constexpr std::size_t kTelling = 10;
+  constexpr double kEvents = 0.01;
+  if (words.size() < kTelling || slowest_s > kEvents || steps.mostly_none || steps.median == 0) return {};
+  const Grain grain = GrainOf(words);
+  if (grain.decimals > 0 && grain.decimals <= 3) return TimeUnit::kMilliseconds;
+  if (grain.thousands) return TimeUnit::kNanoseconds;
+  return {};
+}
+
 }  // namespace
 
 TableSample SampleTable(const std::string& path, const std::string& layout, std::size_t max_rows) {
@@ -101,6 +142,7 @@ TimeUnit UnitOfStamps(const TableSample& sample, std::size_t column, double slow
     if (const auto said = UnitInName(names[column])) return *said;
   }
   std::vector<double> stamps;
+  std::vector<std::string> words;
   std::optional<TimeUnit> date;
   bool whole = true;
   for (const auto& row : sample.rows) {
@@ -109,6 +151,7 @@ TimeUnit UnitOfStamps(const TableSample& sample, std::size_t column, double slow
     if (stamps.empty()) date = UnitOfDate(row[column]);
     whole = whole && value == std::floor(value);
     stamps.push_back(value);
+    words.push_back(row[column]);
   }
   const Steps steps = StepsOf(stamps);
   const auto fits = [&](TimeUnit unit) {
@@ -116,6 +159,7 @@ TimeUnit UnitOfStamps(const TableSample& sample, std::size_t column, double slow
   };
   if (date && (*date == TimeUnit::kSeconds ? !whole || (fits(*date) && !steps.mostly_none) : fits(*date)))
     return *date;
+  if (const auto unit = UnitOfMicroseconds(words, steps, slowest_s)) return *unit;
   if (!whole || stamps.size() < 2 || (fits(TimeUnit::kSeconds) && !steps.mostly_none))
     return TimeUnit::kSeconds;
   return steps.median * 1e-6 <= std::min(slowest_s, 0.5) ? TimeUnit::kMicroseconds : TimeUnit::kNanoseconds;

@@ -31,7 +31,9 @@ std::optional<TimeUnit> UnitInName(const ColumnName& name);
 
 /// The unit of a column of stamps: what the head says, else what the number of digits of a date says; for
 /// whole numbers that count from zero, microseconds or nanoseconds where the rows would otherwise be more
-/// than `slowest_s` seconds apart, or mostly at the same second. Seconds where nothing speaks against it.
+/// than `slowest_s` seconds apart, or mostly at the same second; for events (rows closer than 10 ms),
+/// milliseconds where there are three decimals, nanoseconds where all end in three zeros. Seconds where
+/// nothing speaks against it.
 TimeUnit UnitOfStamps(const TableSample& sample, std::size_t column, double slowest_s);
 
 }  // namespace evit

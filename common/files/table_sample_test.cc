@@ -52,10 +52,27 @@ TEST_F(TableSampleTest, UnitOfStampsIsTold) {
            std::pair("t_ns x\n0 1\n20 1\n40 1\n", TimeUnit::kNanoseconds),
            std::pair("#timestamp [ns],w [rad s^-1]\n5,1\n6,1\n", TimeUnit::kNanoseconds),
            std::pair("# time(ms) x\n5 1\n6 1\n", TimeUnit::kMilliseconds),
+           std::pair("t[\xC2\xB5s],x\n5,1\n6,1\n", TimeUnit::kMicroseconds),
+           std::pair("t (\xCE\xBCs),x\n5,1\n6,1\n", TimeUnit::kMicroseconds),
+           std::pair("t_\xB5s,x\n5,1\n6,1\n", TimeUnit::kMicroseconds),
            std::pair("#timestamp x[ms]\n0.5 1\n0.6 1\n", TimeUnit::kSeconds),
        }) {
     EXPECT_EQ(UnitOfStamps(Sample(text), 0, 0.01), unit) << text;
   }
+  // At a million events a second, no rate tells milliseconds from seconds, or nanoseconds from microseconds:
+  // three decimals or zeros do.
+  std::string milliseconds, nanoseconds, seconds;
+  for (int k = 0; k < 20; ++k) {
+    milliseconds += "0." + std::to_string(101 + k) + " 1\n";
+    nanoseconds += std::to_string(7 + k) + "000 1\n";
+    seconds += "0." + std::to_string(100'001 + k) + " 1\n";
+  }
+  EXPECT_EQ(UnitOfStamps(Sample(milliseconds), 0, 0.01), TimeUnit::kMilliseconds);
+  EXPECT_EQ(UnitOfStamps(Sample(nanoseconds), 0, 0.01), TimeUnit::kNanoseconds);
+  EXPECT_EQ(UnitOfStamps(Sample(seconds), 0, 0.01), TimeUnit::kSeconds);
+  // An IMU of 1 kHz has such seconds and microseconds.
+  EXPECT_EQ(UnitOfStamps(Sample(milliseconds), 0, 0.1), TimeUnit::kSeconds);
+  EXPECT_EQ(UnitOfStamps(Sample(nanoseconds), 0, 0.1), TimeUnit::kMicroseconds);
   // A trajectory may well have one pose a second.
   EXPECT_EQ(UnitOfStamps(Sample("0 1\n1 1\n2 1\n"), 0, 5), TimeUnit::kSeconds);
   EXPECT_EQ(UnitOfStamps(Sample("0 1\n10000000 1\n20000000 1\n"), 0, 5), TimeUnit::kNanoseconds);

@@ -9,7 +9,7 @@
 
 #include "common/config/rig_file.h"
 #include "common/map/map_file.h"
-#include "tools/formats/vector/event_file_writer.h"
+#include "tools/formats/hdf5/event_file_writer.h"
 #include "tools/simulation/camera_frames.h"
 #include "tools/simulation/edge_map.h"
 #include "tools/simulation/event_stage.h"

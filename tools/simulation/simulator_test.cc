@@ -10,7 +10,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "tools/formats/vector/event_file_reader.h"
+#include "tests/helpers/all_events.h"
+#include "tools/formats/hdf5/h5_recording.h"
 #include "tools/simulation/edge_map.h"
 #include "tools/simulation/renderer.h"
 #include "tools/simulation/room.h"
@@ -70,12 +71,8 @@ class SimulatorTest : public ::testing::Test {
 };
 
 EventArray ReadEvents(const fs::path& path) {
-  formats::EventFileReader reader(path.string());
-  EventArray all, part;
-  while (reader.Read(10'000, &part) > 0) {
-    for (std::size_t i = 0; i < part.size(); ++i) all.push_back(part.t[i], part.x[i], part.y[i], part.p[i]);
-  }
-  return all;
+  formats::H5Recording recording({path.string()}, "");
+  return AllEvents(&recording, 8192, 8192);
 }
 
 TEST_F(SimulatorTest, SameSeedGivesSameSequenceWithAnyThreads) {

@@ -54,11 +54,16 @@ std::size_t Aedat3Decoder::Decode(const std::uint8_t* data, std::size_t size, Ev
     const std::size_t length = kHeader + item_bytes * static_cast<std::size_t>(h.number);
     if (size - used < length) break;
     const std::uint8_t* item = data + used + kHeader;
-    const Utime base = Utime{h.overflow} << 31;
+    Utime base = Utime{h.overflow} << 31;
+    std::int32_t before = 0;
     const bool is_imu = (h.type == kImu6 && h.size >= 36) || (h.type == kImu9 && h.size >= 48);
     for (int k = 0; k < h.number; ++k, item += item_bytes) {
       const auto word = Load<std::uint32_t>(item);
-      const Utime t = base + Load<std::int32_t>(item + h.stamp_at);
+      // The packet's count is that of its first event.
+      const auto stamp = Load<std::int32_t>(item + h.stamp_at);
+      if (before > 0x7000'0000 && stamp >= 0 && stamp < 0x1000'0000) base += Utime{1} << 31;
+      before = stamp;
+      const Utime t = base + stamp;
       if ((word & 1) == 0) continue;  // marked as not valid
       if (h.type == kPolarity) {
         events->push_back(t, word >> 17, (word >> 2) & 0x7FFF, (word >> 1) & 1);

@@ -56,7 +56,10 @@ bool Aedat4Packets::Next(int id) {
     const std::uint8_t* header = file_.Take(8, "packet");
     const auto stream = Load<std::int32_t>(header);
     const auto size = Load<std::uint32_t>(header + 4);
-    if (size > end_ - file_.position()) return false;
+    if (size > end_ - file_.position()) {
+      cut_off_ = true;
+      return false;
+    }
     if (stream != id) {
       file_.Skip(size, "packet");
       continue;

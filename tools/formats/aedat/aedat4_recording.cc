@@ -31,7 +31,11 @@ class Aedat4Events : public EventSource {
   }
   double share() const override { return packets_.file().share(); }
   std::string name() const override { return packets_.file().path(); }
-  DropCounts dropped() const override { return filter_.dropped(); }
+  DropCounts dropped() const override {
+    DropCounts dropped = filter_.dropped();
+    dropped.cut_off = packets_.cut_off();
+    return dropped;
+  }
 
  private:
   void Decode(EventArray* events) const {

@@ -24,6 +24,7 @@ class Aedat4Packets {
   const std::map<int, AedatStream>& streams() const { return streams_; }
   const char* compression() const;
   const ByteFile& file() const { return file_; }
+  bool cut_off() const { return cut_off_; }
 
  private:
   void Decompress(const std::uint8_t* data, std::size_t size);
@@ -31,6 +32,7 @@ class Aedat4Packets {
   ByteFile file_;
   std::map<int, AedatStream> streams_;
   int compression_ = 0;
+  bool cut_off_ = false;
   std::uint64_t end_ = 0;  // of the packets
   std::vector<std::uint8_t> contents_;
 };

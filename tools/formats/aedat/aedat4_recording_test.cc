@@ -87,6 +87,8 @@ TEST(Aedat4Recording, EventsOfCompressedAndPlainPacketsAreRead) {
     EXPECT_EQ(e.y, (std::vector<std::uint16_t>{0, 259, 8}));
     EXPECT_EQ(e.p, (std::vector<std::uint8_t>{1, 0, 1}));
     EXPECT_EQ(dropped.outside, 1);
+    EXPECT_TRUE(dropped.cut_off);
+    EXPECT_THAT(DropText(dropped, "events"), HasSubstr("is cut off"));
     EXPECT_TRUE(recording.Streams().imu.empty());
   }
   const std::string damaged = file(1, [](const std::string& s) { return s; });  // not LZ4
@@ -105,6 +107,7 @@ TEST(Aedat4Recording, ARealFileOfACameraAtRestIsReadWhole) {
   DropCounts dropped;
   const EventArray e = AllEvents(&recording, 346, 260, &dropped);
   EXPECT_EQ(e.size(), 6676U);
+  EXPECT_FALSE(dropped.cut_off);
   EXPECT_EQ(dropped.total(), 0);
   EXPECT_NEAR(1e-6 * static_cast<double>(e.t.back() - e.t.front()), 0.170, 0.001);
   const ImportStreams streams = recording.Streams();

@@ -46,19 +46,27 @@ class AedatEvents : public EventSource {
     events->clear();
     while (events->size() == 0) {
       imu_.clear();
-      if (!pass_.Next(events, &imu_)) return false;
+      if (!pass_.Next(events, &imu_)) {
+        cut_off_ = pass_.file().available() > 0;
+        return false;
+      }
       filter_.Apply(events);
     }
     return true;
   }
   double share() const override { return pass_.file().share(); }
   std::string name() const override { return pass_.file().path(); }
-  DropCounts dropped() const override { return filter_.dropped(); }
+  DropCounts dropped() const override {
+    DropCounts dropped = filter_.dropped();
+    dropped.cut_off = cut_off_;
+    return dropped;
+  }
 
  private:
   Pass pass_;
   EventFilter filter_;
   std::vector<ImuSample> imu_;  // not asked for
+  bool cut_off_ = false;
 };
 
 // The chip by what the header says of it.

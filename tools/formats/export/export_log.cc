@@ -9,8 +9,8 @@
 #include "common/files/decimal_time.h"
 #include "common/files/whole_file.h"
 #include "tools/formats/export/log_streams.h"
+#include "tools/formats/hdf5/event_file_writer.h"
 #include "tools/formats/prophesee/evt3_writer.h"
-#include "tools/formats/vector/event_file_writer.h"
 
 namespace evit::formats {
 namespace {

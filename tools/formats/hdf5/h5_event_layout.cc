@@ -3,6 +3,7 @@
 
 #include "common/text/words.h"
 #include "tools/formats/hdf5/h5_events.h"
+#include "tools/formats/hdf5/h5_sample.h"
 
 namespace evit::formats {
 namespace {
@@ -41,6 +42,14 @@ bool FindMembers(const H5File& file, const H5Rows& rows, H5EventLayout* layout) 
   return true;
 }
 
+// Rows of four numbers are events' where their values can be (or their name says so: the reader tells what is
+// wrong).
+bool IsTableOfEvents(const H5Rows& rows) {
+  if (rows.name() == "events" || EndsWith(rows.name(), "/events")) return true;
+  if (!rows.is_number() || rows.rows() < 10) return false;
+  return FitsEvents(SampleColumns({&rows}, ""));
+}
+
 }  // namespace
 
 std::vector<H5EventLayout> FindEvents(const H5File& file) {
@@ -67,7 +76,7 @@ std::vector<H5EventLayout> FindEvents(const H5File& file) {
     H5EventLayout layout;
     if (rows.is_compound()) {
       if (rows.columns() != 1 || !FindMembers(file, rows, &layout)) continue;
-    } else if ((dataset == "events" || EndsWith(dataset, "/events")) && rows.columns() == 4) {
+    } else if (rows.columns() == 4 && IsTableOfEvents(rows)) {
       layout.kind = H5EventLayout::Kind::kRows;
       layout.t = dataset;
     } else {

@@ -2,73 +2,76 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+
+#include "tools/formats/hdf5/h5_sample.h"
 
 namespace evit::formats {
 namespace {
 
 constexpr std::size_t kPiece = 1 << 17, kLargestPiece = 1 << 22;  // events
 constexpr std::uint16_t kOutside = 65535;
-// No date in seconds is so large, and no date in microseconds so small.
-constexpr double kSmallestDateInMicros = 1e14;
+constexpr double kFloatResolution = 1.2e-7;  // of a 32-bit float
+
+// A stamp of 32 bits may be too coarse: then many events share one.
+void RequireResolution(const H5Rows& t, double micros_per_unit) {
+  if (t.is_integer() || t.bytes() >= 8 || t.rows() == 0 || t.columns() != 1) return;
+  std::vector<double> last;
+  t.Read(t.rows() - 1, 1, &last);
+  if (std::abs(last.front()) * micros_per_unit * kFloatResolution < 1) return;
+  t.Fail(
+      "holds stamps as 32-bit floats, which do not resolve a microsecond after 8 s: write them as int64 or "
+      "float64");
+}
 
 }  // namespace
 
 H5EventReader::H5EventReader(const H5File& file, const H5EventLayout& layout)
     : kind_(layout.kind), t_(file.Open(layout.t)), size_(t_.rows()) {
   if (kind_ == H5EventLayout::Kind::kColumns) {
-    x_ = file.Open(layout.x);
-    y_ = file.Open(layout.y);
-    p_ = file.Open(layout.p);
-    for (const H5Rows* rows : {&*x_, &*y_, &*p_}) {
+    columns_ = Columns{file.Open(layout.x), file.Open(layout.y), file.Open(layout.p)};
+    for (const H5Rows* rows : {&columns_->x, &columns_->y, &columns_->p}) {
       if (rows->rows() != size_ || rows->columns() != 1)
         rows->Fail("has " + std::to_string(rows->rows()) + " entries, " + t_.name() + " " +
                    std::to_string(size_) + ": the file is damaged; download it again");
     }
   }
-  if (!layout.offset.empty()) {
-    const H5Rows offset = file.Open(layout.offset);
-    if (!offset.is_integer() || offset.rows() != 1 || offset.columns() != 1)
-      offset.Fail("expected one whole number (us)");
-    offset_ = offset.ReadAll<std::int64_t>().front();
-  }
   // Whole chunks, so that none is decompressed twice.
   const std::size_t chunk = std::min(t_.chunk_rows(), kLargestPiece);
   piece_ = std::max(kPiece / chunk, std::size_t{1}) * chunk;
-  if (kind_ == H5EventLayout::Kind::kRows) {
-    seconds_ = true;
-  } else if (kind_ == H5EventLayout::Kind::kColumns && !t_.is_integer() && size_ > 0) {
-    // Numbers with fractions are seconds; whole ones may be microseconds stored as floats.
-    std::vector<double> first, last;
-    t_.Read(0, std::min<std::size_t>(size_, 1000), &first);
-    t_.Read(size_ - 1, 1, &last);
-    const bool whole = std::all_of(first.begin(), first.end(), [](double t) { return t == std::floor(t); });
-    seconds_ =
-        std::abs(first.front()) < kSmallestDateInMicros && !(whole && last.front() - first.front() > 1e5);
-    if (t_.bytes() < 8 && last.front() > (seconds_ ? 8.0 : 8e6))
-      t_.Fail(
-          "holds stamps as 32-bit floats, which do not resolve a microsecond after 8 s: write them as int64 "
-          "or float64");
+  if (size_ == 0) return;
+  if (kind_ == H5EventLayout::Kind::kColumns) {
+    order_ = FindEventColumns(SampleColumns({&t_, &columns_->x, &columns_->y, &columns_->p}, "t x y p"));
+  } else if (kind_ == H5EventLayout::Kind::kRows) {
+    order_ = FindEventColumns(SampleColumns({&t_}, ""));
+  } else {
+    const H5Rows t = file.Open(layout.t + ":t"), x = file.Open(layout.t + ":x"),
+                 y = file.Open(layout.t + ":y"), p = file.Open(layout.t + ":p");
+    order_ = FindEventColumns(SampleColumns({&t, &x, &y, &p}, "t x y p"));
   }
+  RequireResolution(t_, MicrosPerUnit(order_.unit));
+  std::optional<H5Rows> offset;
+  if (!layout.offset.empty()) offset = file.Open(layout.offset);
+  stamps_.emplace(order_.unit, offset ? &*offset : nullptr);
 }
 
 std::uint16_t H5EventReader::Pixel(const H5Rows& rows, double value) const {
   if (value != std::floor(value))
     rows.Fail("event " + std::to_string(at_) + " ff.: pixel " + std::to_string(value) +
-              " is no whole number");
+              " is no whole number: undistorted coordinates? The tracker needs the sensor's own pixels");
   return value >= 0 && value < kOutside ? static_cast<std::uint16_t>(value) : kOutside;
 }
 
-// -1 stored without sign is 255; 0 and -1 in one file would be two words for darker, or three polarities.
 std::uint8_t H5EventReader::Polarity(const H5Rows& rows, double value) {
-  if (value == 1) return 1;
-  const bool minus = value == -1 || (value == 255 && rows.is_integer() && !rows.is_signed());
-  if (minus) minus_seen_ = true;
-  if (value == 0) zero_seen_ = true;
-  if ((!minus && value != 0) || (minus_seen_ && zero_seen_)) {
-    rows.Fail("event " + std::to_string(at_) + " ff.: polarity " + std::to_string(static_cast<int>(value)) +
-              (minus_seen_ && zero_seen_ ? " beside others" : "") + "; expected 0 and 1, or -1 and 1");
+  constexpr double kMinusOne = 18446744073709551615.0;  // as 64 bits without sign keep it
+  if (value != std::floor(value) || !(std::abs(value) <= kMinusOne))
+    rows.Fail("event " + std::to_string(at_) + " ff.: the polarity " + std::to_string(value) +
+              " has a fraction; expected 0 and 1, or -1 and 1");
+  try {
+    return polarity_.Read(std::abs(value) >= 9e18 ? -1 : static_cast<std::int64_t>(value));
+  } catch (const std::runtime_error& error) {
+    rows.Fail("event " + std::to_string(at_) + " ff.: " + error.what());
   }
-  return 0;
 }
 
 void H5EventReader::ReadPixels(const H5Rows& rows, std::size_t n, std::vector<std::uint16_t>* out) {
@@ -84,44 +87,37 @@ void H5EventReader::ReadPixels(const H5Rows& rows, std::size_t n, std::vector<st
 void H5EventReader::ReadTimes(std::size_t n, std::vector<Utime>* out) {
   if (t_.is_integer()) {
     t_.Read(at_, n, out);
-  } else {
-    t_.Read(at_, n, &doubles_);
-    out->resize(n);
-    const double scale = seconds_ ? 1e6 : 1;
-    for (std::size_t k = 0; k < n; ++k) {
-      if (!(std::abs(doubles_[k]) * scale < 9e18))
-        t_.Fail("event " + std::to_string(at_ + k) + ": the stamp is no number");
-      (*out)[k] = std::llround(doubles_[k] * scale);
-    }
+    stamps_->FromIntegers(out);
+    return;
   }
-  if (offset_ != 0) {
-    for (Utime& t : *out) t += offset_;
-  }
+  t_.Read(at_, n, &doubles_);
+  out->resize(n);
+  for (std::size_t k = 0; k < n; ++k) (*out)[k] = stamps_->FromDouble(doubles_[k]);
 }
 
-void H5EventReader::ReadPolarities(std::size_t n, std::vector<std::uint8_t>* out) {
-  if (p_->is_integer() && !p_->is_signed() && p_->bytes() == 1) {
-    p_->Read(at_, n, out);
-    std::uint8_t largest = 0, smallest = 1;
-    for (const std::uint8_t p : *out) largest = std::max(largest, p);
-    for (const std::uint8_t p : *out) smallest = std::min(smallest, p);
-    if (largest <= 1 && !minus_seen_) {
-      zero_seen_ = zero_seen_ || smallest == 0;
+void H5EventReader::ReadPolarities(const H5Rows& rows, std::size_t n, std::vector<std::uint8_t>* out) {
+  if (rows.is_integer() && rows.bytes() == 1 && !rows.is_signed()) {
+    rows.Read(at_, n, out);
+    const auto [smallest, largest] = std::minmax_element(out->begin(), out->end());
+    if (*largest <= 1) {
+      Polarity(rows, *smallest);
       return;
     }
   }
-  p_->Read(at_, n, &doubles_);
+  rows.Read(at_, n, &doubles_);
   out->resize(n);
-  for (std::size_t k = 0; k < n; ++k) (*out)[k] = Polarity(*p_, doubles_[k]);
+  for (std::size_t k = 0; k < n; ++k) (*out)[k] = Polarity(rows, doubles_[k]);
 }
 
 void H5EventReader::ReadRows(std::size_t n, EventArray* events) {
   t_.Read(at_, n, &doubles_);
+  std::size_t which[4] = {};
+  for (std::size_t k = 0; k < 4; ++k) which[order_.field[k]] = k;
   for (std::size_t k = 0; k < n; ++k) {
     const double* row = doubles_.data() + 4 * k;
-    if (!(std::abs(row[2]) < 9e12)) t_.Fail("event " + std::to_string(at_ + k) + ": the stamp is no number");
-    events->push_back(std::llround(1e6 * row[2]) + offset_, Pixel(t_, row[0]), Pixel(t_, row[1]),
-                      Polarity(t_, row[3]));
+    events->push_back(stamps_->FromDouble(row[which[EventColumns::kTime]]),
+                      Pixel(t_, row[which[EventColumns::kX]]), Pixel(t_, row[which[EventColumns::kY]]),
+                      Polarity(t_, row[which[EventColumns::kPolarity]]));
   }
 }
 
@@ -129,6 +125,20 @@ void H5EventReader::ReadCompounds(std::size_t n, EventArray* events) {
   std::vector<H5Event> compounds;
   H5File::ReadEvents(t_, at_, n, &compounds);
   for (const H5Event& e : compounds) events->push_back(e.t, e.x, e.y, Polarity(t_, e.p));
+  stamps_->FromIntegers(&events->t);
+}
+
+void H5EventReader::DropUntimed(EventArray* events) {
+  if (std::find(events->t.begin(), events->t.end(), H5Stamps::kNoTime) == events->t.end()) return;
+  EventArray kept;
+  for (std::size_t k = 0; k < events->size(); ++k) {
+    if (events->t[k] == H5Stamps::kNoTime) {
+      ++n_invalid_;
+    } else {
+      kept.push_back(events->t[k], events->x[k], events->y[k], events->p[k]);
+    }
+  }
+  *events = std::move(kept);
 }
 
 bool H5EventReader::Read(EventArray* events) {
@@ -143,12 +153,13 @@ bool H5EventReader::Read(EventArray* events) {
       ReadCompounds(n, events);
       break;
     case H5EventLayout::Kind::kColumns:
-      ReadPixels(*x_, n, &events->x);
-      ReadPixels(*y_, n, &events->y);
+      ReadPixels(columns_->x, n, &events->x);
+      ReadPixels(columns_->y, n, &events->y);
       ReadTimes(n, &events->t);
-      ReadPolarities(n, &events->p);
+      ReadPolarities(columns_->p, n, &events->p);
       break;
   }
+  DropUntimed(events);
   at_ += n;
   return true;
 }

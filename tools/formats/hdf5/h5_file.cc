@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "tools/formats/hdf5/h5_chunk.h"
 #include "tools/formats/hdf5/h5_filters.h"
-#include "tools/formats/vector/h5_chunk.h"
-#include "tools/formats/vector/h5_handle.h"
+#include "tools/formats/hdf5/h5_handle.h"
 
 namespace evit::formats {
 namespace {
@@ -108,6 +108,7 @@ std::size_t H5Rows::rows() const { return impl_->shape[0]; }
 std::size_t H5Rows::columns() const { return impl_->columns; }
 std::size_t H5Rows::chunk_rows() const { return impl_->chunk_rows; }
 bool H5Rows::is_integer() const { return impl_->type == H5T_INTEGER || impl_->type == H5T_ENUM; }
+bool H5Rows::is_number() const { return is_integer() || impl_->type == H5T_FLOAT; }
 bool H5Rows::is_signed() const { return impl_->is_signed; }
 bool H5Rows::is_compound() const { return impl_->type == H5T_COMPOUND; }
 std::vector<std::string> H5Rows::members() const {
@@ -130,10 +131,12 @@ template <typename Number>
 void H5Rows::Read(std::size_t begin, std::size_t n, std::vector<Number>* out) const {
   if (columns() == 0 || columns() > kMaxColumns) Fail("has no rows of numbers");
   if (n * columns() * sizeof(Number) > kMaxRead) Fail("is too large to be read at once");
-  if (impl_->type != H5T_INTEGER && impl_->type != H5T_ENUM && impl_->type != H5T_FLOAT)
-    Fail("does not hold numbers");
+  if (!is_number()) Fail("holds no numbers (text, or a compound)");
   out->resize(n * columns());
-  if (n > 0) impl_->ReadInto(begin, n, MemoryType<Number>(), out->data());
+  hid_t type = MemoryType<Number>();
+  // HDF5 would clip: -1 kept in 64 bits without sign is -1 again.
+  if (type == H5T_NATIVE_INT64 && is_integer() && !is_signed()) type = H5T_NATIVE_UINT64;
+  if (n > 0) impl_->ReadInto(begin, n, type, out->data());
 }
 template void H5Rows::Read(std::size_t, std::size_t, std::vector<std::uint8_t>*) const;
 template void H5Rows::Read(std::size_t, std::size_t, std::vector<std::uint16_t>*) const;

@@ -18,6 +18,7 @@ class H5Rows {
   std::size_t rows() const;
   std::size_t columns() const;     // numbers in a row: all dimensions but the first
   std::size_t chunk_rows() const;  // rows that are compressed together; at least 1
+  bool is_number() const;          // whole numbers (bool too) or floats
   bool is_integer() const;
   bool is_signed() const;
   bool is_compound() const;

@@ -12,8 +12,8 @@
 #include <cstring>
 
 #include "tools/formats/hdf5/ecf_chunk.h"
-#include "tools/formats/vector/h5_chunk.h"
-#include "tools/formats/vector/zstd_filter.h"
+#include "tools/formats/hdf5/h5_chunk.h"
+#include "tools/formats/hdf5/zstd_filter.h"
 
 namespace evit::formats {
 namespace {

@@ -22,7 +22,11 @@ class H5Events : public EventSource {
   }
   double share() const override { return reader_.share(); }
   std::string name() const override { return name_; }
-  DropCounts dropped() const override { return filter_.dropped(); }
+  DropCounts dropped() const override {
+    DropCounts dropped = filter_.dropped();
+    dropped.invalid += reader_.n_invalid();
+    return dropped;
+  }
 
  private:
   std::string name_;
@@ -83,9 +87,10 @@ H5Recording::H5Recording(const std::vector<std::string>& paths, const std::strin
     layout_ = Choose(layouts, group, path);
   }
   if (!found) {
-    throw std::runtime_error(paths.front() +
-                             ": holds no events (x, y, t, p in one group; N x 4; CD/events); its datasets: " +
-                             (datasets.empty() ? "none" : datasets));
+    throw std::runtime_error(
+        paths.front() +
+        ": holds no events (x, y, t, p in one group; rows of t x y p; CD/events); its datasets: " +
+        (datasets.empty() ? "none" : datasets));
   }
   constexpr const char* kKinds[] = {"columns ", "rows ", "compounds "};
   info_.format = std::string("HDF5, ") + kKinds[static_cast<int>(layout_.kind)] +

@@ -105,9 +105,9 @@ TEST_F(H5RecordingTest, WhatHasNoSingleMeaningIsRefusedByName) {
     file.Put("events/t", t_type, t);
   };
   make({1, 2, 1}, H5T_STD_U8LE, {0, 1, 2}, H5T_STD_I64LE, {1, 2, 3});
-  ExpectRefused("polarity 2; expected 0 and 1, or -1 and 1");
+  ExpectRefused("the polarity is 2; expected 0 and 1, or -1 and 1");
   make({1, 0, -1}, H5T_STD_I8LE, {0, 1, 2}, H5T_STD_I64LE, {1, 2, 3});
-  ExpectRefused("beside others");
+  ExpectRefused("0 and -1 both occur");
   make({1, 0, 1}, H5T_STD_U8LE, {0, 1.5, 2}, H5T_STD_I64LE, {1, 2, 3});
   ExpectRefused("is no whole number");
   make({1, 0, 1}, H5T_STD_U8LE, {0, 1, 2}, H5T_IEEE_F32LE, {0.5, 1, 20});

@@ -2,24 +2,25 @@
 #include <cmath>
 
 #include "tools/formats/hdf5/h5_recording.h"
+#include "tools/formats/hdf5/h5_sample.h"
 
 namespace evit::formats {
 namespace {
 
 constexpr std::size_t kMaxRows = 100'000'000;
 
-// Stamps of a stream: whole numbers are microseconds, others seconds.
+// Stamps of a stream in any unit.
 std::vector<Utime> ReadStamps(const H5Rows& rows) {
+  constexpr double kSlowest = 5;  // s between two rows
   if (rows.columns() != 1 || rows.rows() > kMaxRows) rows.Fail("expected one stamp a row");
-  if (rows.is_integer()) return rows.ReadAll<std::int64_t>();
+  const TimeUnit unit = UnitOfStamps(SampleColumns({&rows}, ""), 0, kSlowest);
+  H5Stamps to_micros(unit, nullptr);
   std::vector<Utime> stamps;
-  bool whole = true;
-  const std::vector<double> values = rows.ReadAll<double>();
-  for (const double t : values) whole = whole && t == std::floor(t);
-  const bool micros = whole && values.size() > 1 && values.back() - values.front() > 1e5;
-  for (const double t : values) {
-    if (!(std::abs(t) < 9e12)) rows.Fail("a stamp is no number");
-    stamps.push_back(std::llround(micros ? t : 1e6 * t));
+  if (rows.is_integer()) {
+    stamps = rows.ReadAll<std::int64_t>();
+    to_micros.FromIntegers(&stamps);
+  } else {
+    for (const double t : rows.ReadAll<double>()) stamps.push_back(to_micros.FromDouble(t));
   }
   return stamps;
 }
@@ -36,7 +37,8 @@ void AddImu(const std::vector<Utime>& t, const double* gyro, const double* accel
             ImportStreams* out) {
   for (std::size_t k = 0; k < t.size(); ++k) {
     const ImuSample s{t[k], Eigen::Vector3d(gyro + stride * k), Eigen::Vector3d(accel + stride * k)};
-    AppendValid(s, s.gyro.allFinite() && s.accel.allFinite(), &out->imu, &out->dropped_imu);
+    AppendValid(s, s.t != H5Stamps::kNoTime && s.gyro.allFinite() && s.accel.allFinite(), &out->imu,
+                &out->dropped_imu);
   }
 }
 
@@ -47,8 +49,8 @@ void AddTruth(const std::vector<Utime>& t, const std::vector<double>& matrices, 
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(matrices.data() + 16 * k);
     const Eigen::Matrix3d R = T.linear();
-    const bool rotation =
-        T.matrix().allFinite() && (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-2;
+    const bool rotation = t[k] != H5Stamps::kNoTime && T.matrix().allFinite() &&
+                          (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-2;
     if (rotation && inverted) T = T.inverse();
     StampedPose pose{t[k], {}};
     pose.pose.p = T.translation();

@@ -7,8 +7,11 @@
 namespace evit::formats {
 
 std::string DropText(const DropCounts& dropped, const std::string& what) {
-  const std::string sorted =
+  std::string sorted =
       dropped.sorted > 0 ? std::to_string(dropped.sorted) + " " + what + " put into order of time" : "";
+  if (dropped.cut_off)
+    sorted += std::string(sorted.empty() ? "" : "; ") + "the file of the " + what +
+              " is cut off: what follows its last whole packet is missing; copy it again if there is more";
   if (dropped.total() == 0) return sorted;
   std::string reasons;
   for (const auto& [count, reason] :

@@ -12,9 +12,9 @@ namespace evit::formats {
 namespace {
 
 using Field = EventColumns::Field;
+using Order = std::array<Field, 4>;
 constexpr char kLayout[] = "t x y p";
-constexpr std::size_t kTelling = 10;  // rows: fewer fit any order
-constexpr double kSlowest = 0.01;     // s: events come more often than this
+constexpr double kSlowest = 0.01;  // s: events come more often than this
 
 std::string Name(const std::string& word) {  // "t[us]" and "T_us" to "t"
   std::string name;
@@ -30,7 +30,8 @@ std::optional<Field> FieldNamed(const std::string& word) {
   const auto is = [&](std::initializer_list<const char*> names) {
     return std::any_of(names.begin(), names.end(), [&](const char* n) { return name == n; });
   };
-  if (is({"t", "ts", "time", "timestamp", "stamp"})) return EventColumns::kTime;
+  if (is({"t", "ts", "time", "timestamp", "stamp", "sec", "secs", "seconds"})) return EventColumns::kTime;
+  if (is({"nsec", "nsecs", "nanosec", "nanoseconds"})) return EventColumns::kNanoseconds;
   if (is({"x", "u", "col", "column"})) return EventColumns::kX;
   if (is({"y", "v", "row"})) return EventColumns::kY;
   if (is({"p", "pol", "polarity", "sign"})) return EventColumns::kPolarity;
@@ -43,19 +44,20 @@ bool ByHead(const TableSample& sample, EventColumns* columns) {
   std::vector<ColumnName> head = NamedColumns(sample.head);
   if (head.size() + 1 == n) head.insert(head.begin(), {"", ""});  // an index column without a name (pandas)
   if (head.size() != n || n > columns->field.size()) return false;
-  std::array<int, 4> found{};
+  std::array<int, 5> found{};
   for (std::size_t k = 0; k < n; ++k) {
     columns->field[k] = FieldNamed(head[k].name).value_or(EventColumns::kIgnored);
     if (columns->field[k] != EventColumns::kIgnored) ++found[columns->field[k]];
   }
   columns->n = n;
-  return found == std::array<int, 4>{1, 1, 1, 1};
+  return found == std::array<int, 5>{1, 1, 1, 1, 0} || found == std::array<int, 5>{1, 1, 1, 1, 1};
 }
 
 bool IsPolarity(const std::string& word) {
   double value = 0;
   if (!ParseNumber(word, &value))
-    return !word.empty() && std::isalpha(static_cast<unsigned char>(word[0])) != 0;
+    return !word.empty() &&
+           (std::isalpha(static_cast<unsigned char>(word[0])) != 0 || word == "+" || word == "-");
   return value == 0 || value == 1 || value == -1;
 }
 
@@ -64,22 +66,53 @@ bool IsPixel(const std::string& word) {
   return ParseNumber(word, &value) && value == std::floor(value) && std::abs(value) < 8192;
 }
 
-// Whether the rows can be of this order.
-bool Fits(const TableSample& sample, const std::array<Field, 4>& order) {
+// How many rows have an earlier time than the row before, if the rows can be of this order at all.
+std::optional<std::size_t> Backward(const TableSample& sample, const Order& order) {
   double last = -INFINITY;
   std::size_t backward = 0;
   for (const auto& row : sample.rows) {
     for (std::size_t k = 0; k < 4; ++k) {
-      if (order[k] == EventColumns::kPolarity && !IsPolarity(row[k])) return false;
-      if ((order[k] == EventColumns::kX || order[k] == EventColumns::kY) && !IsPixel(row[k])) return false;
+      if (order[k] == EventColumns::kPolarity && !IsPolarity(row[k])) return {};
+      if ((order[k] == EventColumns::kX || order[k] == EventColumns::kY) && !IsPixel(row[k])) return {};
       double t = 0;
       if (order[k] != EventColumns::kTime) continue;
-      if (!ParseNumber(row[k], &t)) return false;
+      if (!ParseNumber(row[k], &t)) return {};
       backward += t < last ? 1 : 0;
       last = t;
     }
   }
-  return 3 * backward <= sample.rows.size();
+  if (3 * backward > sample.rows.size()) return {};
+  return backward;
+}
+
+// The order that rows of four can have in which time goes back least; of equals, the more usual one. A row's
+// number is never left of its column's.
+std::optional<Order> OrderOf(const TableSample& sample) {
+  constexpr Field t = EventColumns::kTime, x = EventColumns::kX, y = EventColumns::kY,
+                  p = EventColumns::kPolarity;
+  if (sample.rows.empty() || sample.rows.front().size() != 4) return {};
+  constexpr std::size_t kUsual = 3, kTelling = 10;  // orders; rows: fewer would fit any order
+  std::optional<Order> best;
+  std::size_t least = 0, tried = 0;
+  for (const Order& order : {Order{t, x, y, p},
+                             {x, y, p, t},
+                             {x, y, t, p},
+                             {t, p, x, y},
+                             {p, x, y, t},
+                             {p, t, x, y},
+                             {x, t, y, p},
+                             {x, p, y, t},
+                             {t, x, p, y},
+                             {x, t, p, y},
+                             {x, p, t, y},
+                             {p, x, t, y}}) {
+    if (++tried > kUsual && sample.rows.size() < kTelling) break;
+    const std::optional<std::size_t> backward = Backward(sample, order);
+    if (!backward || (best && *backward >= least)) continue;
+    best = order;
+    least = *backward;
+  }
+  return best;
 }
 
 // Takes a first row "width height" away.
@@ -108,6 +141,8 @@ bool HoldsEvents(TableSample sample) {
          ParseNumber(first[1], &value);
 }
 
+bool FitsEvents(const TableSample& sample) { return OrderOf(sample).has_value(); }
+
 EventColumns FindEventColumns(const std::string& path) {
   return FindEventColumns(SampleTable(path, kLayout));
 }
@@ -123,18 +158,12 @@ EventColumns FindEventColumns(TableSample sample) {
   if (!ByHead(sample, &columns)) {
     columns.field = EventColumns().field;
     columns.n = 4;
-    if (sample.rows.front().size() == 4 && sample.rows.size() >= kTelling) {
-      constexpr Field t = EventColumns::kTime, x = EventColumns::kX, y = EventColumns::kY,
-                      p = EventColumns::kPolarity;
-      for (const std::array<Field, 4>& order :
-           {std::array<Field, 4>{t, x, y, p}, {x, y, p, t}, {x, y, t, p}, {t, p, x, y}}) {
-        if (!Fits(sample, order)) continue;
-        std::copy(order.begin(), order.end(), columns.field.begin());
-        break;
-      }
-    }
+    if (const auto order = OrderOf(sample)) std::copy(order->begin(), order->end(), columns.field.begin());
   }
-  const auto time = std::find(columns.field.begin(), columns.field.end(), EventColumns::kTime);
+  const auto end = columns.field.begin() + static_cast<std::ptrdiff_t>(columns.n);
+  if (std::find(columns.field.begin(), end, EventColumns::kNanoseconds) != end)
+    return columns;  // beside whole seconds
+  const auto time = std::find(columns.field.begin(), end, EventColumns::kTime);
   columns.unit = UnitOfStamps(sample, static_cast<std::size_t>(time - columns.field.begin()), kSlowest);
   return columns;
 }

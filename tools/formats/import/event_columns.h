@@ -11,8 +11,9 @@ namespace evit::formats {
 
 /// Which column of a text file of events is which, in which unit the stamps are, and how large the sensor is.
 struct EventColumns {
-  enum Field { kTime, kX, kY, kPolarity, kIgnored };
-  std::array<Field, 5> field = {kTime, kX, kY, kPolarity, kIgnored};
+  /// kNanoseconds: a column of its own, beside whole seconds in kTime.
+  enum Field { kTime, kX, kY, kPolarity, kNanoseconds, kIgnored };
+  std::array<Field, 16> field = {kTime, kX, kY, kPolarity};  // the first n count
   std::size_t n = 4;
   TimeUnit unit = TimeUnit::kSeconds;
   std::optional<std::pair<int, int>> size;  // of a first line "width height", which is to be passed over
@@ -24,6 +25,9 @@ struct EventColumns {
 EventColumns FindEventColumns(const std::string& path);
 /// The same of rows that were read already.
 EventColumns FindEventColumns(TableSample sample);
+
+/// Whether rows of four numbers without names can be events, in any order.
+bool FitsEvents(const TableSample& sample);
 
 /// Whether a table may be one of events: four columns of numbers (polarities may be words), below a line
 /// "width height" or not; or names of the columns that say so.

@@ -39,9 +39,27 @@ void CheckHole(const std::string& name, Utime before, Utime after) {
       " s: a damaged time stamp, or several recordings; import each recording separately");
 }
 
+// Stamps in the wrong unit would make a log of nothing but silence.
+void CheckRate(const std::string& name, std::int64_t n, Utime span) {
+  constexpr std::int64_t kFew = 1000;
+  constexpr double kSlowest = 0.1;  // s an event
+  if (n < kFew || ToSeconds(span) < kSlowest * static_cast<double>(n)) return;
+  throw std::runtime_error(
+      name + ": " + std::to_string(n) + " events in " + DecimalSeconds(span) +
+      " s: the unit of the stamps is another one; name it in the head (t_us, t_ms, t_ns), or "
+      "write seconds with six decimals");
+}
+
 double Rate(const std::vector<ImuSample>& imu) {
   if (imu.size() < 2) return 0;
   return static_cast<double>(imu.size() - 1) / ToSeconds(imu.back().t - imu.front().t);
+}
+
+std::string OtherClock(Utime imu, Utime first_event) {
+  return " (IMU " + DecimalSeconds(imu) + " s, first event " + DecimalSeconds(first_event) +
+         " s): the files are from different sequences or clocks; if the clocks, --imu-offset SECONDS is "
+         "added to the "
+         "IMU's stamps";
 }
 
 void CheckImu(const ImportStreams& streams, Utime first_event) {
@@ -50,8 +68,8 @@ void CheckImu(const ImportStreams& streams, Utime first_event) {
   for (std::size_t k = 1; k < streams.imu.size(); ++k)
     CheckHole(streams.imu_name, streams.imu[k - 1].t, streams.imu[k].t);
   if (streams.imu.back().t < first_event) {
-    throw std::runtime_error(
-        streams.imu_name + ": ends before the first event: the files are from different sequences or clocks");
+    throw std::runtime_error(streams.imu_name + ": ends before the first event" +
+                             OtherClock(streams.imu.back().t, first_event));
   }
 }
 
@@ -61,6 +79,11 @@ void PutInOrder(ImportStreams* streams) {
   strict.strict = true;
   const auto put = [&](auto* list, const std::string& name, DropCounts* dropped, const char* what) {
     TimeOrderCounts counts;
+    const auto same = [&](const auto& s) { return s.t == list->front().t; };
+    if (list->size() > 2 && std::all_of(list->begin(), list->end(), same))
+      throw std::runtime_error(name + ": all " + what + " have the same stamp, " +
+                               DecimalSeconds(list->front().t) +
+                               " s: the program that recorded them must fill in the time (header.stamp)");
     *list = InTimeOrder(*list, strict, &counts);
     dropped->Add(counts);
     RequireMostKept(name, *dropped, static_cast<std::int64_t>(list->size()), what);
@@ -134,6 +157,7 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* source, ImportS
     for (; more; more = more && events->Read(&piece)) {
       n_read += static_cast<std::int64_t>(piece.size());
       const Utime before = last;
+      CheckRate(name, n_read, piece.t.back() - first);
       for (std::size_t k = 0; k < piece.size() && last <= end; ++k) {
         CheckHole(name, last, piece.t[k]);
         last = piece.t[k];
@@ -156,9 +180,8 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* source, ImportS
     RequireMostKept(events->name(), events->dropped(), n_read, "events");
     if (summary.n_events == 0) throw std::runtime_error("the part asked for by --seconds holds no events");
     if (has_imu && streams.imu.front().t > last) {
-      throw std::runtime_error(
-          streams.imu_name +
-          ": begins after the last event: the files are from different sequences or clocks");
+      throw std::runtime_error(streams.imu_name + ": begins after the last event" +
+                               OtherClock(streams.imu.front().t, first));
     }
     writer.Close(has_imu ? std::max(last, streams.imu.back().t) : last);
     summary.n_packets = writer.n_packets();

@@ -3,11 +3,13 @@
 #include <string>
 
 #include "common/time/time_order.h"
+#include "tools/formats/import/counter_wrap.h"
 #include "tools/formats/import/event_source.h"
 
 namespace evit::formats {
 
-/// The events of a source in order of time: small disorder sorted, stamps far ahead dropped (TimeOrder).
+/// The events of a source in order of time: counters that wrap are continued (CounterWrap), small disorder is
+/// sorted, stamps far ahead or beyond any date are dropped (TimeOrder).
 class OrderedEvents : public EventSource {
  public:
   /// `source` must outlive this.
@@ -25,9 +27,11 @@ class OrderedEvents : public EventSource {
     std::uint8_t p;
   };
   EventSource* source_;
+  CounterWrap wrap_;
   TimeOrder<Event> order_;
   EventArray piece_;
   bool more_ = true;
+  std::int64_t n_impossible_ = 0;
 };
 
 }  // namespace evit::formats

@@ -1,5 +1,6 @@
 #include "tools/formats/numpy/npy_header.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <regex>
@@ -10,47 +11,104 @@ namespace {
 constexpr char kMagic[] = "\x93NUMPY";
 constexpr std::size_t kMagicSize = 6;
 constexpr std::uint32_t kMaxHeader = 1 << 16;
-constexpr int kMaxFields = 64;
+constexpr std::size_t kMaxColumns = 64;
+constexpr int kMaxDigits = 15;
 
 template <typename T>
-T As(const std::uint8_t* data) {
+T As(const std::uint8_t* data, bool big_endian) {
+  std::uint8_t bytes[sizeof(T)];
+  std::memcpy(bytes, data, sizeof(T));
+  if (big_endian) std::reverse(bytes, bytes + sizeof(T));
   T value;
-  std::memcpy(&value, data, sizeof(T));
+  std::memcpy(&value, bytes, sizeof(T));
   return value;
 }
 
-NpyHeader::Field ParseType(const ByteFile& file, const std::string& name, const std::string& type,
-                           std::size_t offset) {
-  static const std::regex kType("([<>|=]?)([iufb])([1248])");
+// "<i8", "|b1", ">f4", "<M8[us]" (a date); bytes without a meaning, "|V3", have kind 'V'.
+NpyColumn ParseType(const NpyInput& input, const std::string& name, const std::string& type) {
+  static const std::regex kType(R"(([<>|=]?)([iufb])([1248]))"), kDate(R"(([<>|=]?)[mM]8\[(s|ms|us|ns)\])"),
+      kPadding(R"(\|V([0-9]{1,6}))");
   std::smatch match;
-  if (!std::regex_match(type, match, kType) || match[1] == ">" ||
-      (match[2] == "f" && (match[3] == "1" || match[3] == "2")) || (match[2] == "b" && match[3] != "1"))
-    file.Fail("the array's type " + type +
-              " is not read; save it as little-endian integers or floats: a.astype(...)");
-  return {name, match[2].str()[0], std::stoi(match[3]), offset};
+  NpyColumn column;
+  column.name = name;
+  if (std::regex_match(type, match, kDate)) {
+    column.name += "[" + match[2].str() + "]";
+    column.bytes = 8;
+    column.big_endian = match[1] == ">";
+    return column;
+  }
+  if (std::regex_match(type, match, kPadding)) {
+    column.kind = 'V';
+    column.bytes = std::stoi(match[1]);
+    return column;
+  }
+  if (!std::regex_match(type, match, kType) || (match[2] == "f" && (match[3] == "1" || match[3] == "2")) ||
+      (match[2] == "b" && match[3] != "1"))
+    input.Fail("the array's type " + type + " is not read; save it as integers or floats: a.astype(...)");
+  column.kind = match[2].str()[0];
+  column.bytes = std::stoi(match[3]);
+  column.big_endian = match[1] == ">";
+  return column;
 }
 
-// "'t', '<i8'), ('x', '<u2'" and so on.
-void ParseFields(const ByteFile& file, const std::string& text, NpyHeader* header) {
-  static const std::regex kField(R"(\(\s*'([^']*)'\s*,\s*'([^']*)'\s*\))");
-  for (std::sregex_iterator at(text.begin(), text.end(), kField); at != std::sregex_iterator(); ++at) {
-    header->fields.push_back(ParseType(file, (*at)[1], (*at)[2], header->row_bytes));
-    header->row_bytes += static_cast<std::size_t>(header->fields.back().bytes);
-    if (header->fields.size() > kMaxFields) file.Fail("the array has too many fields for one of events");
+std::vector<std::uint64_t> Numbers(const NpyInput& input, const std::string& text) {
+  static const std::regex kNumber("[0-9]+");
+  std::vector<std::uint64_t> numbers;
+  for (std::sregex_iterator at(text.begin(), text.end(), kNumber); at != std::sregex_iterator(); ++at) {
+    if (at->length() > kMaxDigits) input.Fail("the header's shape is no array's: it is damaged");
+    numbers.push_back(std::stoull(at->str()));
   }
+  return numbers;
 }
 
-std::vector<std::uint64_t> ParseShape(const ByteFile& file, const std::string& text) {
-  static const std::regex kShape(R"('shape'\s*:\s*\(([0-9, ]*)\))"), kNumber("[0-9]+");
+std::vector<std::uint64_t> ParseShape(const NpyInput& input, const std::string& text) {
+  static const std::regex kShape(R"('shape'\s*:\s*\(([0-9L, ]*)\))");
   std::smatch match;
-  if (!std::regex_search(text, match, kShape)) file.Fail("the header says no shape: it is damaged");
-  std::vector<std::uint64_t> shape;
-  const std::string numbers = match[1];
-  for (std::sregex_iterator at(numbers.begin(), numbers.end(), kNumber); at != std::sregex_iterator(); ++at) {
-    if (at->str().size() > 15) file.Fail("the header's shape is no array's: it is damaged");
-    shape.push_back(std::stoull(at->str()));
+  if (!std::regex_search(text, match, kShape)) input.Fail("the header says no shape: it is damaged");
+  return Numbers(input, match[1]);
+}
+
+// "('t', '<i8'), ('x', '<u2'), ('', '|V3')" and so on; fields that are arrays themselves are passed over.
+void ParseFields(const NpyInput& input, std::string text, NpyHeader* header) {
+  static const std::regex kField(R"(\(\s*'([^']*)'\s*,\s*'([^']*)'\s*(,\s*\(([0-9, ]*)\)\s*)?\))");
+  std::uint64_t offset = 0;
+  std::smatch match;
+  std::size_t n = 0;
+  for (; std::regex_search(text, match, kField); text = match.suffix()) {
+    if (++n > kMaxColumns) input.Fail("the array has too many fields for one of events");
+    if (match.prefix().str().find('\'') != std::string::npos)
+      input.Fail("has fields in fields; save a plain structured array");
+    NpyColumn column = ParseType(input, match[1], match[2]);
+    std::uint64_t bytes = static_cast<std::uint64_t>(column.bytes);
+    for (const std::uint64_t times : Numbers(input, match[4]))
+      bytes = std::min<std::uint64_t>(bytes * times, kMaxHeader);
+    column.begin = offset;
+    offset += bytes;
+    if (column.kind != 'V' && !match[3].matched) header->columns.push_back(column);
   }
-  return shape;
+  if (text.find('\'') != std::string::npos) input.Fail("has fields in fields; save a plain structured array");
+  for (NpyColumn& column : header->columns) column.stride = offset;
+}
+
+// Rows of numbers; four rows (or columns in Fortran's order) are columns that stand one after the other.
+void PutNumbers(const NpyInput& input, const std::string& type, std::vector<std::uint64_t>* shape,
+                bool fortran, NpyHeader* header) {
+  const NpyColumn one = ParseType(input, "", type);
+  const auto bytes = static_cast<std::uint64_t>(one.bytes);
+  if (one.kind == 'V' || shape->empty() || shape->size() > 2)
+    input.Fail("expected rows of numbers (N x 4), or a structured array with t, x, y and p");
+  header->one_dimension = shape->size() == 1;
+  std::uint64_t columns = header->one_dimension ? 1 : (*shape)[1];
+  const bool transposed = columns != 4 && (*shape)[0] == 4 && !header->one_dimension && columns > 4;
+  if (transposed) std::swap((*shape)[0], columns);
+  header->by_column = !header->one_dimension && fortran != transposed;
+  if (columns < 1 || columns > kMaxColumns)
+    input.Fail("expected rows of numbers (N x 4), or a structured array with t, x, y and p");
+  for (std::uint64_t k = 0; k < columns; ++k) {
+    header->columns.push_back(one);
+    header->columns.back().begin = k * bytes * (header->by_column ? (*shape)[0] : 1);
+    header->columns.back().stride = bytes * (header->by_column ? 1 : columns);
+  }
 }
 
 }  // namespace
@@ -61,59 +119,54 @@ bool IsNpy(const std::string& path) {
   return file.read(magic, kMagicSize) && std::memcmp(magic, kMagic, kMagicSize) == 0;
 }
 
-NpyHeader ReadNpyHeader(ByteFile* file) {
-  const std::uint8_t* begin = file->Take(8, "the header");
-  if (std::memcmp(begin, kMagic, kMagicSize) != 0) file->Fail("is no numpy file");
+NpyHeader ReadNpyHeader(NpyInput* input) {
+  const std::uint8_t* begin = input->Take(8);
+  if (std::memcmp(begin, kMagic, kMagicSize) != 0) input->Fail("is no numpy array");
   const bool long_size = begin[6] >= 2;
-  const std::uint8_t* bytes = file->Take(long_size ? 4 : 2, "the header");
-  const std::uint32_t size = long_size ? As<std::uint32_t>(bytes) : As<std::uint16_t>(bytes);
-  if (size > kMaxHeader) file->Fail("the header is too long: it is damaged");
-  const std::string text(reinterpret_cast<const char*>(file->Take(size, "the header")), size);
+  const std::uint8_t* bytes = input->Take(long_size ? 4 : 2);
+  const std::uint32_t size = long_size ? As<std::uint32_t>(bytes, false) : As<std::uint16_t>(bytes, false);
+  if (size > kMaxHeader) input->Fail("the header is too long: it is damaged");
+  const std::string text(reinterpret_cast<const char*>(input->Take(size)), size);
   static const std::regex kFortran(R"('fortran_order'\s*:\s*True)"), kPlain(R"('descr'\s*:\s*'([^']*)')");
   NpyHeader header;
-  std::vector<std::uint64_t> shape = ParseShape(*file, text);
+  std::vector<std::uint64_t> shape = ParseShape(*input, text);
   std::smatch match;
   if (std::regex_search(text, match, kPlain)) {
-    if (shape.size() != 2 || shape[1] < 1 || shape[1] > kMaxFields)
-      file->Fail("expected rows of numbers (N x 4), or a structured array with t, x, y and p");
-    if (std::regex_search(text, kFortran))
-      file->Fail("the array is stored column by column; save np.ascontiguousarray(a)");
-    for (std::uint64_t k = 0; k < shape[1]; ++k) {
-      header.fields.push_back(ParseType(*file, "", match[1], header.row_bytes));
-      header.row_bytes += static_cast<std::size_t>(header.fields.back().bytes);
-    }
-    shape.pop_back();
+    PutNumbers(*input, match[1], &shape, std::regex_search(text, kFortran), &header);
+  } else if (std::size_t at = text.find("'descr'"), end = text.find("'fortran_order'");
+             at != std::string::npos && end != std::string::npos && at < end && shape.size() == 1) {
+    at = std::min(text.find(':', at) + 1, end);
+    ParseFields(*input, text.substr(at, end - at), &header);
   } else {
-    ParseFields(*file, text.substr(0, text.find("'fortran_order'")), &header);
+    input->Fail("expected rows of numbers (N x 4), or a structured array with t, x, y and p");
   }
-  if (shape.size() != 1 || header.fields.empty())
-    file->Fail("expected rows of numbers (N x 4), or a structured array with t, x, y and p");
+  if (header.columns.empty()) input->Fail("has no field that is a number");
   header.rows = shape[0];
-  if (header.rows > (file->size() - file->position()) / header.row_bytes)
-    file->Fail(
-        "holds fewer rows than it says, or fields that are aligned: copy it again, or save a packed array");
+  const std::uint64_t row_bytes = header.by_column ? header.columns.front().stride * header.columns.size()
+                                                   : header.columns.front().stride;
+  if (row_bytes == 0 || header.rows > input->left() / row_bytes)
+    input->Fail("holds fewer rows than it says: it is cut off; copy it again");
   return header;
 }
 
-std::int64_t NpyInteger(const NpyHeader::Field& field, const std::uint8_t* row) {
-  const std::uint8_t* at = row + field.offset;
-  const bool is_signed = field.kind == 'i';
-  switch (field.bytes) {
+std::int64_t NpyInteger(const NpyColumn& column, const std::uint8_t* at) {
+  const bool is_signed = column.kind == 'i', swap = column.big_endian;
+  switch (column.bytes) {
     case 1:
-      return is_signed ? As<std::int8_t>(at) : std::int64_t{*at};
+      return is_signed ? As<std::int8_t>(at, swap) : std::int64_t{*at};
     case 2:
-      return is_signed ? As<std::int16_t>(at) : std::int64_t{As<std::uint16_t>(at)};
+      return is_signed ? As<std::int16_t>(at, swap) : std::int64_t{As<std::uint16_t>(at, swap)};
     case 4:
-      return is_signed ? As<std::int32_t>(at) : std::int64_t{As<std::uint32_t>(at)};
+      return is_signed ? As<std::int32_t>(at, swap) : std::int64_t{As<std::uint32_t>(at, swap)};
     default:
-      return As<std::int64_t>(at);
+      return As<std::int64_t>(at, swap);
   }
 }
 
-double NpyNumber(const NpyHeader::Field& field, const std::uint8_t* row) {
-  if (field.kind != 'f') return static_cast<double>(NpyInteger(field, row));
-  const std::uint8_t* at = row + field.offset;
-  return field.bytes == 4 ? static_cast<double>(As<float>(at)) : As<double>(at);
+double NpyNumber(const NpyColumn& column, const std::uint8_t* at) {
+  if (column.kind != 'f') return static_cast<double>(NpyInteger(column, at));
+  return column.bytes == 4 ? static_cast<double>(As<float>(at, column.big_endian))
+                           : As<double>(at, column.big_endian);
 }
 
 }  // namespace evit::formats

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "tools/formats/import/event_filter.h"
 
@@ -10,15 +12,7 @@ namespace evit::formats {
 namespace {
 
 constexpr std::uint64_t kPiece = 100'000;  // events
-constexpr std::uint64_t kTelling = 1000;   // rows
-constexpr double kLongest = 9e18;          // us
-
-std::string Word(const NpyHeader::Field& field, const std::uint8_t* row) {
-  if (field.kind != 'f') return std::to_string(NpyInteger(field, row));
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", NpyNumber(field, row));
-  return text;
-}
+constexpr long double kLongest = 4e15L;    // us: beyond any date
 
 // us in a unit.
 double Micros(TimeUnit unit) {
@@ -36,101 +30,136 @@ double Micros(TimeUnit unit) {
 
 class NpyEvents : public EventSource {
  public:
-  NpyEvents(const std::string& path, const EventColumns& columns, int width, int height)
-      : file_(path),
-        header_(ReadNpyHeader(&file_)),
-        left_(header_.rows),
-        micros_(Micros(columns.unit)),
+  NpyEvents(const NpyTable& table, const EventColumns& columns, int width, int height)
+      : name_(table.path + (table.name.empty() ? "" : ": " + table.name)),
+        rows_(table),
+        unit_(columns.unit),
         filter_(width, height) {
     for (std::size_t k = 0; k < columns.n; ++k) {
-      if (columns.field[k] != EventColumns::kIgnored) fields_[columns.field[k]] = header_.fields[k];
+      if (columns.field[k] != EventColumns::kIgnored)
+        fields_[columns.field[k]] = {k, table.columns[k].numbers};
     }
   }
 
   bool Read(EventArray* events) override {
     events->clear();
-    while (left_ > 0 && events->size() == 0) {
-      const std::uint64_t n = std::min(left_, kPiece);
-      const std::uint8_t* row = file_.Take(n * header_.row_bytes, "the events");
-      left_ -= n;
-      for (const std::uint8_t* end = row + n * header_.row_bytes; row < end; row += header_.row_bytes)
-        Add(row, events);
+    while (events->size() == 0) {
+      const std::uint64_t n = rows_.Read(kPiece);
+      if (n == 0) return false;
+      for (std::uint64_t k = 0; k < n; ++k) Add(k, events);
     }
-    return events->size() > 0;
+    return true;
   }
-  double share() const override { return file_.share(); }
-  std::string name() const override { return file_.path(); }
+  double share() const override { return rows_.share(); }
+  std::string name() const override { return name_; }
   DropCounts dropped() const override { return filter_.dropped(); }
 
  private:
-  std::int64_t Whole(EventColumns::Field which, const char* what, const std::uint8_t* row) const {
-    const NpyHeader::Field& field = fields_[which];
-    if (field.kind != 'f') return NpyInteger(field, row);
-    const double value = NpyNumber(field, row);
+  struct Field {
+    std::size_t column = 0;
+    NpyColumn numbers;
+  };
+
+  std::int64_t Whole(EventColumns::Field which, const char* what, std::uint64_t row) const {
+    const Field& field = fields_[which];
+    const std::uint8_t* at = rows_.At(field.column, row);
+    if (field.numbers.kind != 'f') return NpyInteger(field.numbers, at);
+    const double value = NpyNumber(field.numbers, at);
     if (!(std::abs(value) < 1e15) || value != std::floor(value))
-      file_.Fail(std::string(what) + " is " + std::to_string(value) + ", which is no whole number");
+      throw std::runtime_error(name_ + ": " + what + " is " + std::to_string(value) +
+                               ", which is no whole number");
     return static_cast<std::int64_t>(value);
   }
-  void Add(const std::uint8_t* row, EventArray* events) {
-    const NpyHeader::Field& time = fields_[EventColumns::kTime];
-    Utime t = 0;
-    if (time.kind != 'f' && micros_ == 1) {
-      t = NpyInteger(time, row);
-    } else {
-      // Whole numbers of other units are dates in ns at most, which a long double holds.
-      const long double value = time.kind != 'f' ? static_cast<long double>(NpyInteger(time, row)) * micros_
-                                                 : static_cast<long double>(NpyNumber(time, row)) * micros_;
-      if (!(std::abs(value) < kLongest)) return filter_.CountInvalid();
-      t = std::llround(value);
+  // False where it is none.
+  bool Time(std::uint64_t row, Utime* t) const {
+    const Field& time = fields_[EventColumns::kTime];
+    const std::uint8_t* at = rows_.At(time.column, row);
+    // Whole numbers of other units are dates in ns at most, which a long double holds.
+    const long double value =
+        static_cast<long double>(Micros(unit_)) *
+        (time.numbers.kind != 'f' ? static_cast<long double>(NpyInteger(time.numbers, at))
+                                  : static_cast<long double>(NpyNumber(time.numbers, at)));
+    if (!(std::abs(value) < kLongest)) return false;
+    constexpr long double kFloatResolution = 1.2e-7L;  // of 32 bits
+    if (time.numbers.kind == 'f' && time.numbers.bytes < 8 && std::abs(value) * kFloatResolution >= 1) {
+      throw std::runtime_error(
+          name_ +
+          ": holds stamps as 32-bit floats, which do not resolve a microsecond after 8 s: "
+          "save them as int64 or float64");
     }
+    *t = std::llround(value);
+    if (fields_[EventColumns::kNanoseconds].numbers.bytes > 0)
+      *t += Whole(EventColumns::kNanoseconds, "nanoseconds", row) / 1000;
+    return true;
+  }
+  void Add(std::uint64_t row, EventArray* events) {
+    Utime t = 0;
+    if (!Time(row, &t)) return filter_.CountInvalid();
     const std::int64_t x = Whole(EventColumns::kX, "a column", row),
                        y = Whole(EventColumns::kY, "a row", row);
-    const std::uint8_t p = filter_.Polarity(Whole(EventColumns::kPolarity, "a polarity", row));
+    const std::uint8_t p = Polarity(Whole(EventColumns::kPolarity, "a polarity", row));
     if (filter_.Keep(x, y))
       events->push_back(t, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), p);
   }
+  std::uint8_t Polarity(std::int64_t value) {
+    try {
+      return filter_.Polarity(value);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(name_ + ": " + error.what());
+    }
+  }
 
-  ByteFile file_;
-  NpyHeader header_;
-  std::uint64_t left_;  // rows
-  double micros_;
-  NpyHeader::Field fields_[4];
+  std::string name_;
+  NpyRows rows_;
+  TimeUnit unit_;
+  Field fields_[EventColumns::kIgnored];
   EventFilter filter_;
 };
 
+std::string NamesOf(const NpyTable& table) {
+  std::string names;
+  for (const NpyTable::Column& column : table.columns)
+    names += (names.empty() ? "" : ", ") + (column.numbers.name.empty() ? "?" : column.numbers.name);
+  return names;
+}
+
 }  // namespace
 
-NpyRecording::NpyRecording(const std::string& path) : path_(path) {
-  ByteFile file(path);
-  header_ = ReadNpyHeader(&file);
-  TableSample sample;
-  for (const NpyHeader::Field& field : header_.fields) {
-    if (!field.name.empty()) sample.head.push_back(field.name);
+NpyRecording::NpyRecording(const std::string& path, const std::string& requested) {
+  std::vector<NpyTable> found;
+  std::string others, choices;
+  for (NpyTable& table : FindNpyTables(path)) {
+    const TableSample sample = SampleNpy(table);
+    if (!HoldsEvents(sample)) {
+      others += (others.empty() ? "" : "; ") + (table.name.empty() ? "" : table.name + ": ") +
+                std::to_string(table.rows) + " rows of: " + NamesOf(table);
+      continue;
+    }
+    choices += (choices.empty() ? "" : ", ") + (table.name.empty() ? "/" : table.name);
+    if (!requested.empty() && table.name != requested && "/" + table.name != requested) continue;
+    columns_ = FindEventColumns(sample);
+    found.push_back(std::move(table));
   }
-  for (std::uint64_t k = 0; k < std::min(header_.rows, kTelling); ++k) {
-    const std::uint8_t* row = file.Take(header_.row_bytes, "the events");
-    sample.rows.emplace_back();
-    for (const NpyHeader::Field& field : header_.fields) sample.rows.back().push_back(Word(field, row));
+  if (choices.empty()) {
+    throw std::runtime_error(path + ": holds no events (t, x, y and p by name, or rows of these four), but " +
+                             (others.empty() ? "no array with rows" : others));
   }
-  if (!HoldsEvents(sample)) {
-    std::string names;
-    for (const NpyHeader::Field& field : header_.fields)
-      names += (names.empty() ? "" : ", ") + (field.name.empty() ? "?" : field.name);
-    file.Fail("holds no events (t, x, y and p by name, or rows of these four), but " +
-              std::to_string(header_.rows) + " rows of: " + names);
-  }
-  columns_ = FindEventColumns(sample);
+  if (found.size() != 1)
+    throw std::runtime_error(path + ": choose the events to take with --events-topic: " + choices);
+  table_ = std::move(found.front());
 }
 
 RecordingInfo NpyRecording::info() const {
-  RecordingInfo info{"numpy array,", "", 0, 0};
-  constexpr const char* kNames[] = {" t", " x", " y", " p", " -"};
+  RecordingInfo info{
+      table_.name.empty() && !IsNpz(table_.path) ? "numpy array," : "numpy archive " + table_.name + ",", "",
+      0, 0};
+  constexpr const char* kNames[] = {" t", " x", " y", " p", " ns", " -"};
   for (std::size_t k = 0; k < columns_.n; ++k) info.format += kNames[columns_.field[k]];
   return info;
 }
 
 std::unique_ptr<EventSource> NpyRecording::Events(int width, int height) {
-  return std::make_unique<NpyEvents>(path_, columns_, width, height);
+  return std::make_unique<NpyEvents>(table_, columns_, width, height);
 }
 
 }  // namespace evit::formats

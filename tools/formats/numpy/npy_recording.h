@@ -5,25 +5,26 @@
 
 #include "tools/formats/import/event_columns.h"
 #include "tools/formats/import/recording.h"
-#include "tools/formats/numpy/npy_header.h"
+#include "tools/formats/numpy/npy_table.h"
 
 namespace evit::formats {
 
-/// Events in a numpy array (.npy): structured with t, x, y and p by name, or rows of four numbers, whose
-/// order and unit of time the values tell as in text (FindEventColumns).
+/// Events in numpy's files: an array (.npy), structured with t, x, y and p by name, or of rows of four
+/// numbers, whose order and unit of time the values tell as in text (FindEventColumns); or an archive (.npz)
+/// with such an array, or with one array for each of t, x, y and p.
 class NpyRecording : public Recording {
  public:
-  static bool Recognises(const std::string& path) { return IsNpy(path); }
+  static bool Recognises(const std::string& path) { return IsNpy(path) || IsNpz(path); }
 
-  /// Throws std::runtime_error naming the file and what is wrong.
-  explicit NpyRecording(const std::string& path);
+  /// `requested`: of several in an archive, the array to take, or what is before the slash in the names of
+  /// its arrays. Throws std::runtime_error naming the file and what is wrong.
+  explicit NpyRecording(const std::string& path, const std::string& requested = "");
   RecordingInfo info() const override;
   std::unique_ptr<EventSource> Events(int width, int height) override;
   ImportStreams Streams() override { return {}; }
 
  private:
-  std::string path_;
-  NpyHeader header_;
+  NpyTable table_;
   EventColumns columns_;
 };
 

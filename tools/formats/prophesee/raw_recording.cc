@@ -1,5 +1,7 @@
 #include "tools/formats/prophesee/raw_recording.h"
 
+#include <cstring>
+#include <stdexcept>
 #include <utility>
 
 #include "tools/formats/import/byte_file.h"
@@ -31,6 +33,7 @@ class RawEvents : public EventSource {
       const bool last = !more || file_.available() > kLongest;
       file_.Use(decoder_->Decode(file_.data(), file_.available(), last, events));
       filter_.Apply(events);
+      cut_off_ = !more && file_.available() > 0;
       if (!more) break;
     }
     return events->size() > 0;
@@ -40,6 +43,7 @@ class RawEvents : public EventSource {
   DropCounts dropped() const override {
     DropCounts dropped = filter_.dropped();
     dropped.unstamped = decoder_->unstamped();
+    dropped.cut_off = cut_off_;
     return dropped;
   }
 
@@ -47,13 +51,24 @@ class RawEvents : public EventSource {
   ByteFile file_;
   std::unique_ptr<EventDecoder> decoder_;
   EventFilter filter_;
+  bool cut_off_ = false;
 };
 
 }  // namespace
 
 bool RawRecording::Recognises(const std::string& path) {
   ByteFile file(path);
-  return file.Fill(2) && file.available() == 2 && file.data()[0] == '%' && file.data()[1] == ' ';
+  if (!file.Fill(2) || file.available() < 2 || file.data()[0] != '%' || file.data()[1] != ' ') return false;
+  try {
+    // Text may have such comments above its rows.
+    const RawHeader header(&file);
+    if (!header.Get("format").empty() || !header.Get("evt").empty()) return true;
+    file.Fill(1);
+    return file.available() == 0 || std::strchr("0123456789-+ ", *file.data()) == nullptr ||
+           *file.data() == 0;
+  } catch (const std::runtime_error&) {
+    return true;  // opening it says what is wrong
+  }
 }
 
 RawRecording::RawRecording(const std::string& path) : path_(path) {

@@ -22,9 +22,9 @@ namespace {
 constexpr char kKnown[] =
     "known are Metavision RAW (EVT 2.0, 2.1, 3.0) and DAT, AEDAT 2.0, 3.1 and 4.0, bags of ROS 1 and of "
     "ROS 2 (SQLite, MCAP), HDF5 of DSEC, TUM-VIE, M3ED, MVSEC, EDS and Prophesee, numpy arrays "
-    "(.npy), text (t x y p); evit import vector and rpg read folders of VECtor and RPG";
+    "(.npy, .npz), text (t x y p); evit import vector and rpg read folders of VECtor and RPG";
 
-std::unique_ptr<Recording> OpenFile(const std::string& path) {
+std::unique_ptr<Recording> OpenFile(const std::string& path, const std::string& events) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file");
   if (!std::filesystem::is_regular_file(path))
     throw std::runtime_error(path + ": is no file of events; " + kKnown);
@@ -32,7 +32,7 @@ std::unique_ptr<Recording> OpenFile(const std::string& path) {
   if (Aedat4Recording::Recognises(path)) return std::make_unique<Aedat4Recording>(path);
   if (AedatRecording::Recognises(path)) return std::make_unique<AedatRecording>(path);
   if (TextRecording::Recognises(path)) return std::make_unique<TextRecording>(path);
-  if (NpyRecording::Recognises(path)) return std::make_unique<NpyRecording>(path);
+  if (NpyRecording::Recognises(path)) return std::make_unique<NpyRecording>(path, events);
   const std::string other = OtherContents(path);
   if (!other.empty()) throw std::runtime_error(path + ": " + other);
   throw std::runtime_error(path + ": its contents are of no format that is recognised; " + kKnown);
@@ -68,7 +68,7 @@ std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths, 
   if (H5Recording::Recognises(paths.front())) return std::make_unique<H5Recording>(paths, choice.events);
   if (paths.size() != 1)
     throw std::runtime_error(paths[1] + ": a recording of the format of " + paths.front() + " is one file");
-  return OpenFile(paths.front());
+  return OpenFile(paths.front(), choice.events);
 }
 
 bool IsRecording(const std::string& path) {
@@ -80,23 +80,41 @@ bool IsRecording(const std::string& path) {
 }
 
 void MeasureSize(Recording* recording, int* width, int* height) {
-  constexpr int kAny = 1 << 16;
-  const std::unique_ptr<EventSource> events = recording->Events(kAny, kAny);
+  constexpr int kLargest = 8192;         // pixels; beyond it is a damaged number
+  constexpr std::int64_t kFew = 10'000;  // of so many events one may be such
+  const std::unique_ptr<EventSource> events = recording->Events(kLargest, kLargest);
   EventArray piece;
-  std::uint16_t x = 0, y = 0;
-  bool any = false;
+  std::vector<std::int64_t> columns(kLargest, 0), rows(kLargest, 0);
+  std::int64_t n = 0;
   while (events->Read(&piece)) {
-    any = true;
-    x = std::max(x, *std::max_element(piece.x.begin(), piece.x.end()));
-    y = std::max(y, *std::max_element(piece.y.begin(), piece.y.end()));
+    for (const std::uint16_t x : piece.x) ++columns[x];
+    for (const std::uint16_t y : piece.y) ++rows[y];
+    n += static_cast<std::int64_t>(piece.size());
   }
-  if (!any) throw std::runtime_error(events->name() + ": holds no event");
+  if (n == 0) {
+    const std::string dropped = DropText(events->dropped(), "events");
+    throw std::runtime_error(events->name() + ": holds no event" + (dropped.empty() ? "" : "; " + dropped));
+  }
+  const auto extent = [&](const std::vector<std::int64_t>& counts) {
+    std::int64_t beyond = 0;
+    int size = kLargest;
+    while (beyond + counts[static_cast<std::size_t>(size) - 1] <= n / kFew)
+      beyond += counts[static_cast<std::size_t>(--size)];
+    return size;
+  };
+  *width = extent(columns);
+  *height = extent(rows);
   constexpr int kSensors[][2] = {{128, 128}, {240, 180}, {304, 240}, {320, 320},
                                  {346, 260}, {640, 480}, {1280, 720}};
-  *width = x + 1;
-  *height = y + 1;
   for (const auto& sensor : kSensors) {
-    if (x >= sensor[0] || y >= sensor[1]) continue;
+    if (*width == sensor[0] + 1 && *height == sensor[1] + 1 && columns[0] + rows[0] == 0) {
+      const std::string size = std::to_string(sensor[0]) + "x" + std::to_string(sensor[1]);
+      throw std::runtime_error(events->name() + ": columns and rows seem to be counted from 1, up to " +
+                               size + "; EVIT counts from 0: subtract 1 from both, or give --size " +
+                               std::to_string(*width) + "x" + std::to_string(*height) +
+                               " if the sensor is so large");
+    }
+    if (*width > sensor[0] || *height > sensor[1]) continue;
     *width = sensor[0];
     *height = sensor[1];
     return;

@@ -37,5 +37,51 @@ TEST(MeasureSize, TheSmallestKnownSensorThatHoldsAllEventsIsTaken) {
   EXPECT_EQ(height, 320);
 }
 
+std::string Rows(int first, int width, int height, const std::string& last) {
+  std::string text;
+  for (int k = 0; k < 20'000; ++k)
+    text += std::to_string(10 * k) + " " + std::to_string(first + k % width) + " " +
+            std::to_string(first + k % height) + " 1\n";
+  return text + last;
+}
+
+TEST(MeasureSize, ADamagedPixelIsLeftOut) {
+  const TemporaryFolder folder("recognition");
+  for (const char* last : {"", "200000 4000 7 1\n", "200000 7 70000 1\n"}) {
+    const auto recording = OpenRecording({folder.Write("a.txt", Rows(0, 346, 260, last))});
+    int width = 0, height = 0;
+    MeasureSize(recording.get(), &width, &height);
+    EXPECT_EQ(width, 346) << last;
+    EXPECT_EQ(height, 260) << last;
+  }
+}
+
+TEST(MeasureSize, PixelsThatCountFromOneAreRefused) {
+  const TemporaryFolder folder("recognition");
+  const auto recording = OpenRecording({folder.Write("a.txt", Rows(1, 346, 260, ""))});
+  int width = 0, height = 0;
+  EXPECT_THAT([&] { MeasureSize(recording.get(), &width, &height); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("counted from 1")));
+}
+
+TEST(OpenRecording, TextBelowCommentsOfPercentSignsIsText) {
+  const TemporaryFolder folder("recognition");
+  const auto recording =
+      OpenRecording({folder.Write("a.csv", "% made by us\n% geometry 346x260\n" + Rows(0, 346, 260, ""))});
+  EXPECT_THAT(recording->info().format, HasSubstr("text"));
+}
+
+TEST(OpenRecording, WhyTextCannotBeReadIsSaid) {
+  const TemporaryFolder folder("recognition");
+  const std::pair<std::string, std::string> cases[] = {
+      {std::string("\xff\xfe") + std::string("1\0 \0", 4), "UTF-16"},
+      {"0,31;1;2;1\n0,32;1;2;1\n", "decimal commas"},
+      {"PK\x03\x04 no arrays", "unzip"}};
+  for (const auto& c : cases) {
+    const std::string path = folder.Write("a.txt", c.first);
+    EXPECT_THAT([&] { OpenRecording({path}); }, ThrowsMessage<std::runtime_error>(HasSubstr(c.second)));
+  }
+}
+
 }  // namespace
 }  // namespace evit::formats

@@ -56,6 +56,8 @@ constexpr Contents kOthers[] = {
     {0, "# .PCD"sv, "is a map; give it to `evit run --map`"},
     {0, "VERSION .7"sv, "is a map; give it to `evit run --map`"},
     {0, "ply\n"sv, "is a map; give it to `evit run --map`"},
+    {0, "\xff\xfe"sv, "is UTF-16 text; save it as UTF-8: iconv -f UTF-16 -t UTF-8 FILE"},
+    {0, "\xfe\xff"sv, "is UTF-16 text; save it as UTF-8: iconv -f UTF-16 -t UTF-8 FILE"},
     {0, "MATLAB 5.0 MAT-file"sv,
      "is MATLAB's; save it in version 7.3 (HDF5) or as text: writematrix([t x y p], 'events.txt', "
      "'Delimiter', ' ')"},
@@ -81,7 +83,10 @@ std::string OfText(const std::string& path, std::string_view text) {
     if (columns >= 7 && ParseNumber(sample.rows.front()[1], &value))
       return "is a table of " + std::to_string(columns) +
              " columns; an IMU's is given with --imu, one of poses with --truth, beside a file of events";
-  } catch (const std::runtime_error&) {  // no text
+  } catch (const std::runtime_error& error) {
+    const std::string what = error.what();
+    if (text.find('\0') == std::string_view::npos && what.rfind(path + ":", 0) == 0)
+      return what.substr(path.size() + 1);
   }
   return "";
 }
@@ -94,10 +99,6 @@ std::string OtherContents(const std::string& path) {
   file.read(text.data(), kLooked);
   text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
   if (text.empty()) return "is empty; copy or download it again";
-  // numpy.savez: the name of the first array is at byte 30.
-  if (Has(text, {0, "PK\x03\x04"sv, ""}) && text.find(".npy") < 100)
-    return "is an archive of numpy arrays; save one array instead: numpy.save(\"events.npy\", "
-           "numpy.rec.fromarrays([a[\"t\"], a[\"x\"], a[\"y\"], a[\"p\"]], names=\"t,x,y,p\"))";
   for (const Contents& contents : kPacked)
     if (Has(text, contents)) return kCompressed + std::string(contents.what);
   for (const Contents& contents : kOthers)

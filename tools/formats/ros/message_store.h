@@ -22,6 +22,8 @@ class MessagePass {
   /// False at the end. Throws std::runtime_error naming the file where it is damaged.
   virtual bool Next(RosMessage* message) = 0;
   virtual double share() const = 0;  // of the bag that was read, 0..1
+  /// At the end: whether the file ends within a record. What is before it was read.
+  virtual bool cut_off() const { return false; }
 };
 
 struct RosTopic {

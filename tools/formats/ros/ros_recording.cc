@@ -55,6 +55,7 @@ class RosEvents : public EventSource {
   DropCounts dropped() const override {
     DropCounts dropped = filter_.dropped();
     dropped.unstamped = packets_.unstamped();
+    dropped.cut_off = pass_->cut_off();
     return dropped;
   }
 

@@ -18,10 +18,12 @@ class FolderPass : public MessagePass {
   bool Next(RosMessage* message) override {
     while (true) {
       if (pass_ && pass_->Next(message)) return true;
+      cut_off_ = cut_off_ || (pass_ && pass_->cut_off());
       if (next_ == parts_.size()) return false;
       pass_ = parts_[next_++]->Read(topics_);
     }
   }
+  bool cut_off() const override { return cut_off_; }
   double share() const override {
     if (!pass_) return 0;
     return (static_cast<double>(next_) - 1 + pass_->share()) / static_cast<double>(parts_.size());
@@ -32,6 +34,7 @@ class FolderPass : public MessagePass {
   std::set<std::string> topics_;
   std::unique_ptr<MessagePass> pass_;
   std::size_t next_ = 0;
+  bool cut_off_ = false;
 };
 
 // ros2 bag numbers its parts: name_0, name_1, ... name_10.

@@ -97,6 +97,7 @@ class McapPass : public MessagePass {
     return false;
   }
   double share() const override { return records_.file().share(); }
+  bool cut_off() const override { return records_.cut_off(); }
 
  private:
   McapRecords records_;

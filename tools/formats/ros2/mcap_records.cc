@@ -74,13 +74,12 @@ bool McapRecords::Next(McapRecord* record) {
     const std::uint64_t at = file_.position();
     try {
       if (NextInChunk(record)) return true;
-      if (file_.size() - at < kRecordHeader) return false;
+      if (file_.size() - at < kRecordHeader) return End(true);
       const std::uint8_t* header = file_.Take(kRecordHeader, "record");
       record->type = header[0];
       const std::uint64_t size = LittleEndian(header + 1, 8);
-      if (record->type == McapRecord::kDataEnd || record->type == McapRecord::kFooter ||
-          size > file_.size() - file_.position())
-        return false;
+      if (record->type == McapRecord::kDataEnd || record->type == McapRecord::kFooter) return End(false);
+      if (size > file_.size() - file_.position()) return End(true);
       if (record->type < McapRecord::kSchema || record->type > McapRecord::kChunk) {
         file_.Skip(size, "record");
         continue;

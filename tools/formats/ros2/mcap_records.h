@@ -48,14 +48,20 @@ class McapRecords {
   /// damaged.
   bool Next(McapRecord* record);
   const ByteFile& file() const { return file_; }
+  bool cut_off() const { return cut_off_; }
 
  private:
   bool NextInChunk(McapRecord* record);
+  bool End(bool cut_off) {
+    cut_off_ = cut_off;
+    return false;
+  }
   void OpenChunk(const McapRecord& chunk);
 
   ByteFile file_;
   std::vector<std::uint8_t> chunk_;
   std::size_t at_ = 0;  // in the chunk
+  bool cut_off_ = false;
 };
 
 }  // namespace evit::formats

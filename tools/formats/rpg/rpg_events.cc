@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -10,7 +11,16 @@ namespace {
 
 constexpr std::size_t kPiece = 100'000;  // events
 
-// Python's True and False beside numbers.
+// Whether the file ends within a line, as one does that is cut off.
+bool EndsWithinLine(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file || file.tellg() == 0) return false;
+  file.seekg(-1, std::ios::end);
+  const int last = file.get();
+  return last != '\n' && last != '\r';
+}
+
+// Words for polarities, as programs write them beside numbers.
 bool IsWord(std::string_view word, std::string_view lower) {
   return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
                     [](char a, char b) { return (a | 0x20) == b; });
@@ -19,7 +29,11 @@ bool IsWord(std::string_view word, std::string_view lower) {
 }  // namespace
 
 RpgEvents::RpgEvents(const std::string& path, int width, int height)
-    : path_(path), lines_(path, "t x y p"), filter_(width, height), columns_(FindEventColumns(path)) {
+    : path_(path),
+      lines_(path, "t x y p"),
+      filter_(width, height),
+      columns_(FindEventColumns(path)),
+      cut_off_(EndsWithinLine(path)) {
   if (columns_.size) lines_.Next();
   if (columns_.size && *columns_.size != std::pair(width, height)) {
     lines_.Fail("the first line says that the sensor has " + std::to_string(columns_.size->first) + "x" +
@@ -31,8 +45,11 @@ RpgEvents::RpgEvents(const std::string& path, int width, int height)
 
 std::uint8_t RpgEvents::ReadPolarity() {
   const std::string_view word = lines_.Word();
-  if (IsWord(word, "true") || IsWord(word, "on")) return 1;
-  if (IsWord(word, "false") || IsWord(word, "off")) return 0;
+  for (const char* on : {"true", "t", "on", "pos", "positive"})
+    if (IsWord(word, on)) return 1;
+  for (const char* off : {"false", "f", "off", "neg", "negative"})
+    if (IsWord(word, off)) return 0;
+  if (word == "+" || word == "-") return word == "+" ? 1 : 0;
   double value = 0;
   if (!ParseNumber(word, &value) || !(std::abs(value) < 1e10) || value != std::floor(value))
     lines_.Fail("the polarity is " + std::string(word) + "; expected 0 or 1: t x y p");
@@ -46,14 +63,21 @@ std::uint8_t RpgEvents::ReadPolarity() {
 bool RpgEvents::Read(EventArray* events) {
   events->clear();
   while (events->size() < kPiece && lines_.Next()) {
-    Utime t = 0;
+    if (cut_off_ && lines_.share() >= 1 && lines_.WordsLeft() < columns_.n) {
+      filter_.CountInvalid();
+      continue;
+    }
+    Utime t = 0, fraction = 0;
     bool finite = true;
     std::int64_t x = 0, y = 0;
     std::uint8_t p = 0;
     for (std::size_t k = 0; k < columns_.n; ++k) {
       switch (columns_.field[k]) {
         case EventColumns::kTime:
-          finite = lines_.Time(&t, columns_.unit);
+          finite = lines_.Time(&t, columns_.unit) && finite;
+          break;
+        case EventColumns::kNanoseconds:
+          finite = lines_.Time(&fraction, TimeUnit::kNanoseconds) && finite;
           break;
         case EventColumns::kX:
           x = lines_.Integer();
@@ -72,7 +96,7 @@ bool RpgEvents::Read(EventArray* events) {
     if (!finite) {
       filter_.CountInvalid();
     } else if (filter_.Keep(x, y)) {
-      events->push_back(t, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), p);
+      events->push_back(t + fraction, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), p);
     }
   }
   return events->size() > 0;

@@ -28,6 +28,7 @@ class RpgEvents : public EventSource {
   TableReader lines_;
   EventFilter filter_;
   EventColumns columns_;
+  bool cut_off_;
 };
 
 }  // namespace evit::formats

@@ -165,6 +165,26 @@ TEST_F(RpgImportTest, EventsInEveryFormThatHasOneMeaning) {
           return text("%d %d %lld %d", x, y, static_cast<long long>(1000 * t), p);
         });
       },
+      [&] {
+        write("", "\n",
+              [&](Utime t, int x, int y, int p) { return text("%.3f %d %d %d", 1e3 * seconds(t), x, y, p); });
+      },
+      [&] {
+        write("secs,nsecs,x,y,p\n", "\n", [&](Utime t, int x, int y, int p) {
+          return text("%lld,%lld,%d,%d,%s", static_cast<long long>(t / 1'000'000),
+                      static_cast<long long>(t % 1'000'000 * 1000), x, y, p ? "pos" : "neg");
+        });
+      },
+      [&] {
+        write("% recorded with\n% geometry 240x180\n", "\n", [&](Utime t, int x, int y, int p) {
+          return text("%d %d %d %lld", p, x, y, static_cast<long long>(t));
+        });
+      },
+      [&] {
+        write("t (\xC2\xB5s),x,y,p\n", "\n", [&](Utime t, int x, int y, int p) {
+          return text("%lld,%d,%d,%s", static_cast<long long>(t), x, y, p ? "+" : "-");
+        });
+      },
   };
   made_.events.t.resize(kEvents), made_.events.x.resize(kEvents), made_.events.y.resize(kEvents),
       made_.events.p.resize(kEvents);
@@ -236,6 +256,28 @@ TEST_F(RpgImportTest, RigIsWrittenFromTheCalibration) {
   job_.truth_of_body = true;
   Import();
   ExpectSame(ReadImported(job_.out).truth, made_.truth);
+}
+
+// A recorder that was switched off leaves half a row, or zeros that the file system had reserved.
+TEST_F(RpgImportTest, AFileThatIsCutOffIsReadUpToItsLastRow) {
+  for (const std::string& tail : {std::string("0.6 1 "), std::string(4096, '\0')}) {
+    made_ = {};
+    SetUp();
+    Append("events.txt", tail);
+    const ImportSummary summary = Import();
+    EXPECT_EQ(summary.n_events, static_cast<std::int64_t>(made_.events.size()));
+    EXPECT_EQ(summary.dropped_events.invalid, 1);
+  }
+}
+
+TEST_F(RpgImportTest, StampsOfAnotherUnitAreNoRecordingOfSilence) {
+  std::ofstream(In("imu.txt")) << "t ax ay az gx gy gz\n0 0 0 9.81 0 0 0\n30000 0 0 9.81 0 0 0\n";
+  {
+    std::ofstream events(In("events.txt"));
+    events << "t[s] x y p\n";
+    for (int k = 0; k < 2000; ++k) events << 15 * k << " 1 1 " << k % 2 << '\n';
+  }
+  EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(HasSubstr("the unit of the stamps")));
 }
 
 TEST_F(RpgImportTest, ErrorsNameFileLineAndRemedy) {

@@ -5,24 +5,12 @@
 #include <stdexcept>
 
 #include "common/files/table_reader.h"
-#include "common/files/table_sample.h"
 #include "tools/formats/import/imu_columns.h"
 
 namespace evit::formats {
-namespace {}  // namespace
 
 std::vector<ImuSample> ReadRpgImu(const std::string& path, DropCounts* dropped) {
-  constexpr char kLayout[] = "t ax ay az gx gy gz";
-  const ImuColumns columns = FindImuColumns(path, kLayout, {0, 4, 5, 6, 1, 2, 3});
-  TableReader lines(path, kLayout);
-  std::vector<ImuSample> samples;
-  while (lines.Next()) {
-    ImuSample s;
-    const bool finite = ReadImuRow(columns, &lines, &s);
-    lines.End();
-    AppendValid(s, finite, &samples, dropped);
-  }
-  return samples;
+  return ReadImuRows(path, "t ax ay az gx gy gz", ImuOrder::kAccelFirst, dropped);
 }
 
 Camera ReadRpgCamera(const std::string& path, int width, int height) {

@@ -19,7 +19,7 @@ bool TextRecording::Recognises(const std::string& path) {
 RecordingInfo TextRecording::info() const {
   const EventColumns columns = FindEventColumns(path_);
   RecordingInfo info{"text,", "", 0, 0};
-  constexpr const char* kNames[] = {" t", " x", " y", " p", " -"};
+  constexpr const char* kNames[] = {" t", " x", " y", " p", " ns", " -"};
   for (std::size_t k = 0; k < columns.n; ++k) info.format += kNames[columns.field[k]];
   if (columns.size) std::tie(info.width, info.height) = *columns.size;
   return info;

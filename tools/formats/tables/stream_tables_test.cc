@@ -25,6 +25,25 @@ TEST(ReadImuTable, ColumnsAndUnitsAreFoundByNameOrByGravity) {
        "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],a_RS_S_x [m "
        "s^-2],a_RS_S_y [m "
        "s^-2],a_RS_S_z [m s^-2]\n1000000000,0.1,0.2,0.3,0,0,9.81\n1005000000,0.1,0.2,0.3,0,0,9.81\n"},
+      {"rostopic echo -p",
+       "%time,field.header.seq,field.header.stamp,field.header.frame_id,field.orientation.x,field."
+       "orientation.y,"
+       "field.orientation.z,field.orientation.w,field.orientation_covariance0,field.angular_velocity.x,"
+       "field.angular_velocity.y,field.angular_velocity.z,field.angular_velocity_covariance0,"
+       "field.linear_acceleration.x,field.linear_acceleration.y,field.linear_acceleration.z\n"
+       "1000900000,1,1000000000,imu,0,0,0,1,0,0.1,0.2,0.3,0,0,0,9.81\n"
+       "1005900000,2,1005000000,imu,0,0,0,1,0,0.1,0.2,0.3,0,0,0,9.81\n"},
+      {"the magnetometer first, an index",
+       "idx,t,mag_x,mag_y,mag_z,gyro_x,gyro_y,gyro_z,acc_x,acc_y,acc_z\n"
+       "0,1.0,7,8,9,0.1,0.2,0.3,0,0,9.81\n1,1.005,7,8,9,0.1,0.2,0.3,0,0,9.81\n"},
+      {"an orientation before",
+       "t,qx,qy,qz,qw,wx,wy,wz,ax,ay,az\n1.0,0,0,0,1,0.1,0.2,0.3,0,0,9.81\n"
+       "1.005,0,0,0,1,0.1,0.2,0.3,0,0,9.81\n"},
+      {"in any order",
+       "ax,wx,t_us,ay,wy,wz,az\n0,0.1,1000000,0,0.2,0.3,9.81\n0,0.1,1005000,0,0.2,0.3,9.81\n"},
+      {"seconds and nanoseconds",
+       "secs,nsecs,gx,gy,gz,ax,ay,az\n1,0,0.1,0.2,0.3,0,0,9.81\n"
+       "1,5000000,0.1,0.2,0.3,0,0,9.81\n"},
       {"named, accelerations first",
        "t[us],acc_x,acc_y,acc_z,gyr_x,gyr_y,gyr_z\n1000000,0,0,9.81,0.1,0.2,0.3\n1005000,0,0,9.81,0.1,0.2,0."
        "3\n"}};
@@ -39,6 +58,17 @@ TEST(ReadImuTable, ColumnsAndUnitsAreFoundByNameOrByGravity) {
     EXPECT_EQ(samples[1].accel, Eigen::Vector3d(0, 0, 9.81));
   }
   DropCounts dropped;
+  std::string split, degrees = "t,gyro_x_dps,gyro_y_dps,gyro_z_dps,ax [g],ay [g],az [g]\n";
+  for (int k = 0; k < 20; ++k) {
+    split += "17 " + std::to_string(5'000'000 * k) + " 0.1 0.2 0.3 0 0 9.81\n";
+    degrees += "1." + std::to_string(100 + k) + ",180,0,0,0,0,1\n";
+  }
+  const std::vector<ImuSample> of_split = ReadImuTable(folder.Write("imu", split), &dropped);
+  ASSERT_EQ(of_split.size(), 20U);
+  EXPECT_EQ(of_split[2].t, 17'010'000);
+  const std::vector<ImuSample> of_degrees = ReadImuTable(folder.Write("imu", degrees), &dropped);
+  EXPECT_NEAR(of_degrees[0].gyro.x(), 3.14159265, 1e-6);
+  EXPECT_NEAR(of_degrees[0].accel.z(), 9.80665, 1e-9);
   EXPECT_THAT([&] { ReadImuTable(folder.Write("imu", "1 0 0 0 0 0 0\n1.1 0 0 0 0 0 0\n"), &dropped); },
               ThrowsMessage<std::runtime_error>(HasSubstr("which columns are accelerations")));
 }

@@ -14,7 +14,7 @@
 #include "common/evaluation/trajectory.h"
 #include "common/files/decimal_time.h"
 #include "common/wire/event_wire.h"
-#include "tools/formats/vector/event_file_writer.h"
+#include "tools/formats/hdf5/event_file_writer.h"
 
 namespace evit::formats {
 namespace {

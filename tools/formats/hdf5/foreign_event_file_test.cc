@@ -8,7 +8,8 @@
 #include <functional>
 #include <vector>
 
-#include "tools/formats/vector/event_file_reader.h"
+#include "tests/helpers/all_events.h"
+#include "tools/formats/hdf5/h5_recording.h"
 
 namespace evit::formats {
 namespace {
@@ -57,13 +58,8 @@ class ForeignEventFileTest : public ::testing::Test {
   }
   EventArray Read() {
     Close();
-    EventFileReader reader(path_);
-    EventArray events, piece;
-    while (reader.Read(3, &piece) > 0) {
-      for (std::size_t k = 0; k < piece.size(); ++k)
-        events.push_back(piece.t[k], piece.x[k], piece.y[k], piece.p[k]);
-    }
-    impossible_ = reader.n_impossible();
+    H5Recording recording({path_}, "");
+    EventArray events = AllEvents(&recording, 8192, 8192, &dropped_);
     return events;
   }
   void ExpectError(const std::string& a, const std::string& b) {
@@ -73,7 +69,7 @@ class ForeignEventFileTest : public ::testing::Test {
   }
   const std::string path_ = ::testing::TempDir() + "foreign_" + std::to_string(getpid()) + ".h5";
   hid_t file_ = -1;
-  std::int64_t impossible_ = 0;
+  DropCounts dropped_;
 };
 
 TEST_F(ForeignEventFileTest, TheOffsetMayBeMissingOrOfAnyForm) {
@@ -145,7 +141,8 @@ TEST_F(ForeignEventFileTest, FloatSecondsAreMicroseconds) {
                                     1'642'661'138'000'030));
   SetUp();
   Put("events/t", H5T_NATIVE_DOUBLE, std::vector<double>{1, 2.5, std::nan(""), 3});
-  ExpectError("events/t", "no time");
+  EXPECT_THAT(Read().t, ElementsAre(1'000'000, 2'500'000, 3'000'000));
+  EXPECT_EQ(dropped_.invalid, 1);
 }
 
 TEST_F(ForeignEventFileTest, ACounterOf32BitsGoesOnWhenItWraps) {
@@ -159,7 +156,7 @@ TEST_F(ForeignEventFileTest, PixelsAreCheckedNotConverted) {
   SetUp();
   Put("events/x", H5T_NATIVE_INT16, std::vector<std::int16_t>{1, -2, 3, 4});
   EXPECT_THAT(Read().x, ElementsAre(1, 3, 4));
-  EXPECT_EQ(impossible_, 1);
+  EXPECT_EQ(dropped_.outside, 1);
   SetUp();
   Put("events/y", H5T_NATIVE_INT32, std::vector<std::int32_t>{5, 65536 + 6, 7, 8});
   EXPECT_THAT(Read().y, ElementsAre(5, 7, 8));
@@ -177,10 +174,10 @@ TEST_F(ForeignEventFileTest, WhatIsNoNumberOrNotUnpackedIsNamed) {
   // A filter that nobody has.
   const H5Z_class2_t filter{
       H5Z_CLASS_T_VERS,
-      32001,
+      32008,
       1,
       1,
-      "Blosc, not really",
+      "Bitshuffle, not really",
       nullptr,
       nullptr,
       [](unsigned, std::size_t, const unsigned*, std::size_t n, std::size_t*, void**) { return n; }};
@@ -188,39 +185,77 @@ TEST_F(ForeignEventFileTest, WhatIsNoNumberOrNotUnpackedIsNamed) {
   const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
   const hsize_t chunk = 4;
   H5Pset_chunk(properties, 1, &chunk);
-  H5Pset_filter(properties, 32001, H5Z_FLAG_MANDATORY, 0, nullptr);
+  H5Pset_filter(properties, 32008, H5Z_FLAG_MANDATORY, 0, nullptr);
   Put("events/p", H5T_NATIVE_UINT8, std::vector<std::uint8_t>{0, 1, 1, 0}, properties);
   H5Pclose(properties);
   Close();
-  H5Zunregister(32001);
-  ExpectError("events/p", "hdf5-filter-plugin-blosc-serial");
+  H5Zunregister(32008);
+  ExpectError("events/p", "hdf5-filter-plugin");
 }
 
-// A chunk as h5py's LZF packs it: literal runs of up to 32 bytes.
-TEST_F(ForeignEventFileTest, LzfChunksAreRead) {
-  const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
-  const hsize_t chunk = 4, offset = 0;
-  H5Pset_chunk(properties, 1, &chunk);
-  const unsigned values[] = {4, 0x0105, 4};
-  const H5Z_class2_t filter{
-      H5Z_CLASS_T_VERS,
-      32000,
-      1,
-      0,
-      "LZF",
-      nullptr,
-      nullptr,
-      [](unsigned, std::size_t, const unsigned*, std::size_t n, std::size_t*, void**) { return n; }};
-  H5Zregister(&filter);
-  H5Pset_filter(properties, 32000, H5Z_FLAG_OPTIONAL, 3, values);
-  Put("events/p", H5T_NATIVE_UINT8, std::vector<std::uint8_t>{0, 0, 0, 0}, properties);
-  const hid_t set = H5Dopen2(file_, "events/p", H5P_DEFAULT);
-  const std::uint8_t packed[] = {3, 0, 1, 1, 0};
-  EXPECT_GE(H5Dwrite_chunk(set, H5P_DEFAULT, 0, &offset, sizeof packed, packed), 0);
-  H5Dclose(set), H5Pclose(properties);
-  Close();
-  H5Zunregister(32000);
-  EXPECT_THAT(Read().p, ElementsAre(0, 1, 1, 0));
+constexpr Utime kDate = 1'600'000'000'000'000;
+
+// More events than a probe of the units needs, 25 us apart.
+TEST_F(ForeignEventFileTest, UnitsOfAnyNumberAreTold) {
+  constexpr int kEvents = 40;
+  std::vector<std::uint16_t> pixel(kEvents, 3);
+  std::vector<Utime> expected, dated;
+  for (int k = 0; k < kEvents; ++k) {
+    expected.push_back(100 + 25 * k);
+    dated.push_back(kDate + expected.back());
+  }
+  const auto read = [&](hid_t type, double scale, Utime begin) {
+    SetUp();
+    Put("events/x", H5T_NATIVE_UINT16, pixel);
+    Put("events/y", H5T_NATIVE_UINT16, pixel);
+    Put("events/p", H5T_NATIVE_UINT8, std::vector<std::uint8_t>(kEvents, 1));
+    std::vector<std::int64_t> whole;
+    std::vector<double> numbers;
+    for (const Utime t : expected) {
+      whole.push_back((t + begin) * (scale == 1000 ? 1000 : 1));
+      numbers.push_back(scale * static_cast<double>(t + begin));
+    }
+    if (H5Tget_class(type) == H5T_INTEGER) {
+      Put("events/t", type, whole);
+    } else {
+      Put("events/t", type, numbers);
+    }
+    return Read().t;
+  };
+  EXPECT_EQ(read(H5T_NATIVE_INT64, 1000, 0), expected);   // ns
+  EXPECT_EQ(read(H5T_NATIVE_INT64, 1000, kDate), dated);  // ns, a date
+  EXPECT_EQ(read(H5T_NATIVE_INT64, 1, kDate), dated);     // us
+  EXPECT_EQ(read(H5T_NATIVE_DOUBLE, 1e-3, 0), expected);  // ms
+  EXPECT_EQ(read(H5T_NATIVE_DOUBLE, 1e-6, 0), expected);  // s
+  EXPECT_EQ(read(H5T_NATIVE_DOUBLE, 1, kDate), dated);    // us
+}
+
+TEST_F(ForeignEventFileTest, RowsAreReadInAnyOrder) {
+  constexpr int kEvents = 40;
+  for (const auto& order :
+       std::vector<std::vector<int>>{{0, 1, 2, 3}, {1, 2, 3, 0}, {1, 2, 0, 3}, {3, 1, 2, 0}}) {
+    for (const char* name : {"events", "recording/data"}) {
+      Create();
+      H5Ldelete(file_, "events", H5P_DEFAULT);
+      std::vector<std::int64_t> table;
+      for (int k = 0; k < kEvents; ++k) {
+        const std::int64_t event[] = {7 + 25 * k, 200 + k % 3, 100 - k % 5, k % 2};
+        for (const int which : order) table.push_back(event[which]);
+      }
+      const hsize_t shape[] = {kEvents, 4};
+      const hid_t links = H5Pcreate(H5P_LINK_CREATE), space = H5Screate_simple(2, shape, nullptr);
+      H5Pset_create_intermediate_group(links, 1);
+      const hid_t set = H5Dcreate2(file_, name, H5T_NATIVE_INT64, space, links, H5P_DEFAULT, H5P_DEFAULT);
+      H5Dwrite(set, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.data());
+      H5Dclose(set), H5Sclose(space), H5Pclose(links);
+      const EventArray events = Read();
+      ASSERT_EQ(events.size(), std::size_t{kEvents});
+      EXPECT_EQ(events.t[3], 7 + 75);
+      EXPECT_EQ(events.x[1], 201);
+      EXPECT_EQ(events.y[4], 96);
+      EXPECT_EQ(events.p[1], 1);
+    }
+  }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "tools/formats/vector/zstd_filter.h"
+#include "tools/formats/hdf5/zstd_filter.h"
 
 #include <hdf5.h>
 #include <zstd.h>
@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "tools/formats/vector/h5_chunk.h"
+#include "tools/formats/hdf5/h5_chunk.h"
 
 namespace evit::formats {
 namespace {

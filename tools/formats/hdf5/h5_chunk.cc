@@ -1,8 +1,8 @@
-#include "tools/formats/vector/h5_chunk.h"
+#include "tools/formats/hdf5/h5_chunk.h"
 
 #include <cstdlib>
 
-#include "tools/formats/vector/h5_handle.h"
+#include "tools/formats/hdf5/h5_handle.h"
 
 namespace evit::formats {
 namespace {

@@ -6,8 +6,9 @@
 #include <fstream>
 #include <random>
 
-#include "tools/formats/vector/event_file_reader.h"
-#include "tools/formats/vector/event_file_writer.h"
+#include "tests/helpers/all_events.h"
+#include "tools/formats/hdf5/event_file_writer.h"
+#include "tools/formats/hdf5/h5_recording.h"
 
 namespace evit::formats {
 namespace {
@@ -45,16 +46,16 @@ class EventFileTest : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-TEST_F(EventFileTest, RoundTripInAnyPieces) {
+EventArray ReadAll(const std::string& path) {
+  H5Recording recording({path}, "");
+  return AllEvents(&recording, 640, 480);
+}
+
+TEST_F(EventFileTest, RoundTrip) {
   const EventArray events = Events(300'000);
   const std::string path = Write(events);
   EXPECT_FALSE(std::filesystem::exists(path + ".part"));
-  EventFileReader reader(path);
-  ASSERT_EQ(reader.size(), events.size());
-  EventArray part, all;
-  for (std::size_t piece = 1; reader.Read(piece, &part) > 0; piece = piece * 3 + 1) {
-    for (std::size_t k = 0; k < part.size(); ++k) all.push_back(part.t[k], part.x[k], part.y[k], part.p[k]);
-  }
+  const EventArray all = ReadAll(path);
   EXPECT_EQ(all.t, events.t);
   EXPECT_EQ(all.x, events.x);
   EXPECT_EQ(all.y, events.y);
@@ -84,15 +85,7 @@ TEST_F(EventFileTest, TruncatedFilesAreRefusedAtAnyLength) {
     const std::string cut = Path("cut.hdf5");
     std::filesystem::copy_file(path, cut, std::filesystem::copy_options::overwrite_existing);
     std::filesystem::resize_file(cut, static_cast<std::uintmax_t>(share * static_cast<double>(size)));
-    EXPECT_THAT(
-        [&] {
-          EventFileReader reader(cut);
-          EventArray events;
-          while (reader.Read(50'000, &events) > 0) {
-          }
-        },
-        ThrowsMessage<std::runtime_error>(HasSubstr("cut.hdf5")))
-        << share;
+    EXPECT_THAT([&] { ReadAll(cut); }, ThrowsMessage<std::runtime_error>(HasSubstr("cut.hdf5"))) << share;
   }
 }
 
@@ -106,23 +99,14 @@ TEST_F(EventFileTest, DamagedChunkIsNamed) {
     file.seekp(static_cast<std::streamoff>(size / 4));
     file << std::string(size / 2, 'x');
   }
-  EXPECT_THAT(
-      [&] {
-        EventFileReader reader(path);
-        EventArray events;
-        while (reader.Read(50'000, &events) > 0) {
-        }
-      },
-      ThrowsMessage<std::runtime_error>(HasSubstr("events.hdf5")));
+  EXPECT_THAT([&] { ReadAll(path); }, ThrowsMessage<std::runtime_error>(HasSubstr("events.hdf5")));
 }
 
 TEST_F(EventFileTest, MissingDatasetIsNamed) {
   const std::string path = Path("empty.hdf5");
   H5Fclose(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-  EXPECT_THAT([&] { EventFileReader reader(path); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("events/x")));
-  EXPECT_THAT([&] { EventFileReader reader(Path("none.hdf5")); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("no such file")));
+  EXPECT_THAT([&] { ReadAll(path); }, ThrowsMessage<std::runtime_error>(HasSubstr("holds no events")));
+  EXPECT_THAT([&] { ReadAll(Path("none.hdf5")); }, ThrowsMessage<std::runtime_error>(HasSubstr("none.hdf5")));
 }
 
 TEST_F(EventFileTest, OutOfOrderIsRefusedWithTheIndex) {

@@ -1,11 +1,11 @@
-#include "tools/formats/vector/event_file_writer.h"
+#include "tools/formats/hdf5/event_file_writer.h"
 
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
 
-#include "tools/formats/vector/h5_handle.h"
-#include "tools/formats/vector/zstd_filter.h"
+#include "tools/formats/hdf5/h5_handle.h"
+#include "tools/formats/hdf5/zstd_filter.h"
 
 namespace evit::formats {
 namespace {
