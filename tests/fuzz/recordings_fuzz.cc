@@ -8,6 +8,7 @@
 #include "tools/formats/aedat/aedat4_recording.h"
 #include "tools/formats/aedat/aedat_recording.h"
 #include "tools/formats/hdf5/ecf_chunk.h"
+#include "tools/formats/import/ordered_events.h"
 #include "tools/formats/numpy/npy_recording.h"
 #include "tools/formats/prophesee/raw_recording.h"
 #include "tools/formats/ros/message_types.h"
@@ -23,8 +24,9 @@ void ReadAll(Recording* recording) {
   recording->info();
   recording->Streams();
   const auto events = recording->Events(640, 480);
+  OrderedEvents ordered(events.get());
   evit::EventArray piece;
-  while (events->Read(&piece)) {
+  while (ordered.Read(&piece)) {
   }
 }
 

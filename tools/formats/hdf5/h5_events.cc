@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "tools/formats/hdf5/h5_sample.h"
+#include "tools/formats/import/micros_per_unit.h"
 
 namespace evit::formats {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "tools/formats/import/micros_per_unit.h"
+
 namespace evit::formats {
 namespace {
 
@@ -27,19 +29,6 @@ Utime ReadOffset(const H5Rows& rows, double micros) {
 }
 
 }  // namespace
-
-double MicrosPerUnit(TimeUnit unit) {
-  switch (unit) {
-    case TimeUnit::kSeconds:
-      return 1e6;
-    case TimeUnit::kMilliseconds:
-      return 1e3;
-    case TimeUnit::kMicroseconds:
-      return 1;
-    default:
-      return 1e-3;
-  }
-}
 
 H5Stamps::H5Stamps(TimeUnit unit, const H5Rows* offset) : micros_(MicrosPerUnit(unit)), unit_(unit) {
   if (offset != nullptr) offset_ = ReadOffset(*offset, micros_);

@@ -9,9 +9,6 @@
 
 namespace evit::formats {
 
-/// What to multiply a time of this unit by for microseconds.
-double MicrosPerUnit(TimeUnit unit);
-
 /// Stamps of events in HDF5 to microseconds: whole numbers or floats of any unit; counters that wrap are
 /// continued before `t_offset` is added.
 class H5Stamps {

@@ -4,9 +4,9 @@
 
 namespace evit::formats {
 
-/// Continues a sensor's counter of microseconds where it wraps: at 2^24 (EVT 3.0), 2^31 or 2^32, with or without
-/// sign. A wrap is a step from just before the one end to just behind the other; any other step back is left to
-/// TimeOrder. Events that come late over a wrap go back before it.
+/// Continues a sensor's counter of microseconds where it wraps: at 2^24 (EVT 3.0), 2^31 or 2^32, with or
+/// without sign. A wrap is a step from just before the one end to just behind the other; any other step back
+/// is left to TimeOrder. Events that come late over a wrap go back before it.
 class CounterWrap {
  public:
   /// The continued stamp of the next event.
@@ -15,7 +15,8 @@ class CounterWrap {
     if (step < -kFar || step > kFar) {
       for (const Counter& counter : kCounters) {
         const bool was_at_end = last_ >= counter.end - counter.near && last_ < counter.end,
-                   was_at_begin = last_ < counter.end - counter.span + counter.near && last_ >= counter.end - counter.span;
+                   was_at_begin = last_ < counter.end - counter.span + counter.near &&
+                                  last_ >= counter.end - counter.span;
         const Utime same = t + (was_at_end ? counter.span : -counter.span);
         const Utime distance = same - last_;
         if (distance < -counter.near || distance > counter.near) continue;
@@ -32,7 +33,8 @@ class CounterWrap {
 
  private:
   struct Counter {
-    Utime end, span, near;  // one behind the last stamp, number of stamps, how far from the ends a wrap may be
+    Utime end, span,
+        near;  // one behind the last stamp, number of stamps, how far from the ends a wrap may be
   };
   static constexpr Utime kFar = Utime{1} << 23;  // half of the smallest counter
   static constexpr Counter kCounters[] = {{Utime{1} << 24, Utime{1} << 24, 100'000},

@@ -3,7 +3,6 @@
 #include <zip.h>
 
 #include <algorithm>
-
 #include <stdexcept>
 
 #include "common/text/words.h"
@@ -43,7 +42,10 @@ Archive OpenZip(const std::string& path) {
 class ZipInput : public NpyInput {
  public:
   ZipInput(std::string path, std::string name)
-      : path_(std::move(path)), name_(std::move(name)), archive_(OpenZip(path_)), entry_(nullptr, zip_fclose) {
+      : path_(std::move(path)),
+        name_(std::move(name)),
+        archive_(OpenZip(path_)),
+        entry_(nullptr, zip_fclose) {
     zip_stat_t stat;
     const std::string file = name_ + kSuffix;
     if (zip_stat(archive_.get(), file.c_str(), 0, &stat) != 0 || (stat.valid & ZIP_STAT_SIZE) == 0)
@@ -100,10 +102,12 @@ std::vector<std::string> NamesInNpz(const std::string& path) {
   const Archive archive = OpenZip(path);
   std::vector<std::string> names;
   const zip_int64_t n = zip_get_num_entries(archive.get(), 0);
-  if (n > kMaxArrays) throw std::runtime_error(path + ": holds " + std::to_string(n) + " files: too many for arrays of events");
+  if (n > kMaxArrays)
+    throw std::runtime_error(path + ": holds " + std::to_string(n) + " files: too many for arrays of events");
   for (zip_int64_t k = 0; k < n; ++k) {
     const char* name = zip_get_name(archive.get(), static_cast<zip_uint64_t>(k), 0);
-    if (name != nullptr && EndsWith(name, kSuffix)) names.emplace_back(name, std::char_traits<char>::length(name) - 4);
+    if (name != nullptr && EndsWith(name, kSuffix))
+      names.emplace_back(name, std::char_traits<char>::length(name) - 4);
   }
   return names;
 }

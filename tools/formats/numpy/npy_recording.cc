@@ -7,26 +7,13 @@
 #include <vector>
 
 #include "tools/formats/import/event_filter.h"
+#include "tools/formats/import/micros_per_unit.h"
 
 namespace evit::formats {
 namespace {
 
 constexpr std::uint64_t kPiece = 100'000;  // events
 constexpr long double kLongest = 4e15L;    // us: beyond any date
-
-// us in a unit.
-double Micros(TimeUnit unit) {
-  switch (unit) {
-    case TimeUnit::kSeconds:
-      return 1e6;
-    case TimeUnit::kMilliseconds:
-      return 1e3;
-    case TimeUnit::kMicroseconds:
-      return 1;
-    default:
-      return 1e-3;
-  }
-}
 
 class NpyEvents : public EventSource {
  public:
@@ -76,7 +63,7 @@ class NpyEvents : public EventSource {
     const std::uint8_t* at = rows_.At(time.column, row);
     // Whole numbers of other units are dates in ns at most, which a long double holds.
     const long double value =
-        static_cast<long double>(Micros(unit_)) *
+        static_cast<long double>(MicrosPerUnit(unit_)) *
         (time.numbers.kind != 'f' ? static_cast<long double>(NpyInteger(time.numbers, at))
                                   : static_cast<long double>(NpyNumber(time.numbers, at)));
     if (!(std::abs(value) < kLongest)) return false;

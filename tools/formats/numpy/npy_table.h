@@ -22,8 +22,8 @@ struct NpyTable {
   std::vector<Column> columns;
 };
 
-/// The tables of a file (.npy) or an archive (.npz); arrays without numbers in rows are passed over in the latter.
-/// Throws std::runtime_error naming the file where it is damaged.
+/// The tables of a file (.npy) or an archive (.npz); arrays without numbers in rows are passed over in the
+/// latter. Throws std::runtime_error naming the file where it is damaged.
 std::vector<NpyTable> FindNpyTables(const std::string& path);
 
 /// The first rows of a table as text has them.
