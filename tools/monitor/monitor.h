@@ -42,8 +42,9 @@ class Monitor : private WebClients {
   void ShowFiles(const std::string& map, const std::string& rig);
   /// What it waits for while there is no bus, for people.
   void SetWaiting(const std::string& why);
-  /// Call often.
+  /// Call often; at once where busy().
   void Tick();
+  bool busy() const { return server_.busy(); }
 
  private:
   void Connected(ClientId client, const std::string& protocol) override;

@@ -74,7 +74,7 @@ int MonitorProcess::WatchBus() {
   const auto bus = OpenLcmBus(ResolveLcmUrl(lcm_url_));
   monitor.Watch(bus.get());
   while (!signals.received()) {
-    bus->Poll(kPollMs);
+    bus->Poll(monitor.busy() ? 0 : kPollMs);
     monitor.Tick();
   }
   return 0;
@@ -103,7 +103,7 @@ int MonitorProcess::WatchLocal() {
       ShowLocalFiles(found->pid, &files, &monitor);
     }
     if (bus) {
-      bus->Poll(kPollMs);
+      bus->Poll(monitor.busy() ? 0 : kPollMs);
     } else {
       std::this_thread::sleep_for(std::chrono::milliseconds(kPollMs));
     }

@@ -11,9 +11,9 @@
 
 namespace evit::monitor {
 
-/// The last minute of a run, ten samples a second: what a page that is opened later shows of the past. At most
-/// 600 window states and 600 true poses, 200 kB. Where the sensor's time goes back (a replay was rewound) the
-/// past is forgotten.
+/// The last minute of a run, ten samples a second: what a page that is opened later shows of the past. At
+/// most 600 window states and 600 true poses, 200 kB. Where the sensor's time goes back (a replay was
+/// rewound) the past is forgotten.
 class RunHistory {
  public:
   /// `frame`: the state as EncodeWindow() makes it.

@@ -34,17 +34,13 @@ FramePtr ViewerQueue::Next() {
     series_.pop_front();
     return frame;
   }
-  if (!picture_ || unacknowledged_ >= kPicturesUnderWay) return nullptr;
-  ++unacknowledged_;
+  if (!picture_ || under_way_) return nullptr;
+  under_way_ = true;
   return std::exchange(picture_, nullptr);
 }
 
-void ViewerQueue::Acknowledge() {
-  if (unacknowledged_ > 0) --unacknowledged_;
-}
+void ViewerQueue::Acknowledge() { under_way_ = false; }
 
-bool ViewerQueue::ready() const {
-  return !newest_.empty() || !series_.empty() || (picture_ && unacknowledged_ < kPicturesUnderWay);
-}
+bool ViewerQueue::ready() const { return !newest_.empty() || !series_.empty() || (picture_ && !under_way_); }
 
 }  // namespace evit::monitor

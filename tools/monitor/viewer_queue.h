@@ -11,9 +11,8 @@
 namespace evit::monitor {
 
 /// What waits to be sent to one viewer. Bounded: of a picture, a pose or a table only the newest is kept; of
-/// a series (window states, for plots) the newest 512. A picture is sent only while at most one that went
-/// before it has not been acknowledged, so that pictures never pile up in the network's buffers: a slow
-/// viewer sees fewer of them, not older ones.
+/// a series (window states, for plots) the newest 512. A picture is sent only
+/// when the one before it has been acknowledged: a slow viewer sees fewer of them, not older ones.
 class ViewerQueue {
  public:
   /// Takes the place of what waits under the same name.
@@ -28,19 +27,18 @@ class ViewerQueue {
   /// The viewer has drawn a picture.
   void Acknowledge();
 
-  bool wants_picture() const { return unacknowledged_ < kPicturesUnderWay && !picture_; }
+  bool wants_picture() const { return !under_way_ && !picture_; }
   std::int64_t dropped() const { return dropped_; }
   /// Whether Next() gives a frame now.
   bool ready() const;
 
  private:
-  static constexpr int kPicturesUnderWay = 2;
   static constexpr std::size_t kLongestSeries = 512;
 
   std::map<std::string, FramePtr> newest_;
   std::deque<FramePtr> series_;
   FramePtr picture_;
-  int unacknowledged_ = 0;
+  bool under_way_ = false;  // a picture that has not been acknowledged
   std::int64_t dropped_ = 0;
 };
 

@@ -27,18 +27,17 @@ TEST(ViewerQueue, ASeriesKeepsItsOrderAndItsNewest) {
   EXPECT_EQ(queue.Next(), nullptr);
 }
 
-TEST(ViewerQueue, AViewerThatDoesNotAcknowledgeGetsTwoPicturesAndNoMore) {
+TEST(ViewerQueue, AViewerThatDoesNotAcknowledgeGetsOnePictureAndNoMore) {
   ViewerQueue queue;
-  for (int i = 0; i < 2; ++i) {
-    ASSERT_TRUE(queue.wants_picture());
-    queue.ReplacePicture(TextFrame(std::to_string(i)));
-    EXPECT_FALSE(queue.wants_picture());
-    ASSERT_NE(queue.Next(), nullptr);
-  }
-  for (int i = 2; i < 1000; ++i) queue.ReplacePicture(TextFrame(std::to_string(i)));
+  ASSERT_TRUE(queue.wants_picture());
+  queue.ReplacePicture(TextFrame("0"));
+  EXPECT_FALSE(queue.wants_picture());
+  ASSERT_NE(queue.Next(), nullptr);
+  EXPECT_FALSE(queue.wants_picture());
+  for (int i = 1; i < 1000; ++i) queue.ReplacePicture(TextFrame(std::to_string(i)));
   EXPECT_EQ(queue.Next(), nullptr);
   EXPECT_FALSE(queue.ready());
-  EXPECT_EQ(queue.dropped(), 997);
+  EXPECT_EQ(queue.dropped(), 998);
   queue.Acknowledge();
   EXPECT_EQ(queue.Next()->text(), "999");
 }
@@ -51,7 +50,7 @@ TEST(ViewerQueue, AcknowledgementsOfNothingGiveNoCredit) {
     queue.ReplacePicture(TextFrame("p"));
     sent += queue.Next() ? 1 : 0;
   }
-  EXPECT_EQ(sent, 2);
+  EXPECT_EQ(sent, 1);
 }
 
 TEST(ViewerQueue, SmallFramesOvertakeAPicture) {

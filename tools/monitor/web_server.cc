@@ -12,6 +12,8 @@ namespace {
 static_assert(Frame::kHead >= LWS_PRE);
 constexpr std::size_t kLongestMessage = 64 << 10;  // bytes, from a client
 constexpr std::size_t kChunk = 32 << 10;           // bytes of a file at a time
+constexpr unsigned kWriteBuffer = 1 << 20;         // bytes
+constexpr int kRounds = 16;                        // of frames at a time: the bus must not wait for long
 constexpr char kHttp[] = "http";
 
 std::string Header(lws* wsi, lws_token_indexes token) {
@@ -56,6 +58,7 @@ struct WebServer::Implementation {
   lws_context* context = nullptr;
   std::map<ClientId, std::unique_ptr<Client>> clients;
   ClientId next_id = 1;
+  int frames_sent = 0;  // since it last looked
 };
 
 bool WebServer::Implementation::MayConnect(lws* wsi) const {
@@ -134,6 +137,7 @@ int WebServer::Implementation::Send(lws* wsi, Client* client) {
   if (lws_write(wsi, data, frame->size(), frame->is_text() ? LWS_WRITE_TEXT : LWS_WRITE_BINARY) < 0) {
     return -1;
   }
+  ++frames_sent;
   lws_callback_on_writable(wsi);
   return 0;
 }
@@ -204,6 +208,8 @@ WebServer::WebServer(const Options& options, std::vector<WebFile> files, WebClie
   info.uid = static_cast<uid_t>(-1);
   info.user = implementation_.get();
   info.options = LWS_SERVER_OPTION_DISABLE_IPV6 | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
+  // So many bytes are written at a time; of the default, 4 kB, a picture would take a second of looks.
+  info.pt_serv_buf_size = kWriteBuffer;
   // A viewer whose host has vanished is let go after some minutes.
   info.ka_time = 60;
   info.ka_probes = 4;
@@ -227,9 +233,15 @@ int WebServer::port() const {
 }
 
 void WebServer::Service() {
-  // A negative time: look once, wait for nothing.
-  lws_service(implementation_->context, -1);
+  // As long as viewers take frames; a negative time: look once, wait for nothing.
+  for (int i = 0; i < kRounds; ++i) {
+    implementation_->frames_sent = 0;
+    lws_service(implementation_->context, -1);
+    if (implementation_->frames_sent == 0) break;
+  }
 }
+
+bool WebServer::busy() const { return implementation_->frames_sent > 0; }
 
 void WebServer::Wake(ClientId client) {
   const auto found = implementation_->clients.find(client);

@@ -54,6 +54,8 @@ class WebServer {
   int port() const;
   /// Does what there is to do, and returns.
   void Service();
+  /// There were still frames to send when Service() returned.
+  bool busy() const;
   /// There are frames for this client.
   void Wake(ClientId client);
 

@@ -20,7 +20,7 @@ const ANSWER_MS = 6000; // for so long an answer stays
 class Page implements Handler {
   private readonly canvas = element<HTMLCanvasElement>("map");
   private readonly mapView = new MapView(this.canvas);
-  private readonly plots = new Plots();
+  private readonly plots = new Plots(() => this.mapView.pace.pause);
   private readonly pictureLatencies = new Latencies();
   private readonly connection: Connection;
   private readonly surface: SurfaceView;

@@ -13,7 +13,8 @@ export type View = "orbit" | "follow" | "camera";
 // From three's camera (looks along -z, y up) to ours (looks along z, y down).
 const TURN = new THREE.Quaternion(1, 0, 0, 0);
 const FOV = 50; // degrees
-const FEWEST = 40_000; // points of the map that are drawn on the slowest computer
+const FEWEST = 25_000; // points of the map that are drawn on the slowest computer
+const ALL = new URLSearchParams(location.search).get("points") === "all"; // in every frame, however slow that is
 
 // Graphics without a GPU: every pixel costs.
 function isSoftware(): boolean {
@@ -45,7 +46,7 @@ export class MapView {
   private framed = 0; // points in the map when it was last brought into view
   private touched = false; // by the user: no more framing
   private dirty = true;
-  private wasDirty = false;
+  private turning = false; // by the user, who should not wait
   enlarge = 10;
   onLegend: () => void = () => {};
 
@@ -59,7 +60,7 @@ export class MapView {
     this.camera.up.set(0, 0, 1);
     this.camera.position.set(-3, -4, 3);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener("change", () => (this.dirty = true));
+    this.controls.addEventListener("change", () => (this.dirty = this.turning = true));
     this.controls.addEventListener("start", () => (this.touched = true));
     const material = new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.4, depthWrite: false });
     this.ellipsoid = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), material);
@@ -153,6 +154,7 @@ export class MapView {
       this.camera.position.add(this.body.object.position).sub(before);
       this.controls.target.copy(this.body.object.position);
       this.controls.update();
+      this.turning = false;
     }
     this.dirty = true;
   }
@@ -209,16 +211,13 @@ export class MapView {
 
   private draw(now: number): void {
     if (document.hidden) return;
+    this.pace.tick(now);
     // All points again once nothing moves any more.
     const complete = !this.dirty && this.cloud.drawn < this.cloud.count && this.pace.still(now);
-    if (!this.dirty && !complete) {
-      this.wasDirty = false;
-      return;
-    }
-    if (!complete) this.pace.add(now, this.wasDirty);
-    this.cloud.setShare(complete ? 1 : this.pace.share, FEWEST);
-    this.wasDirty = this.dirty;
-    this.dirty = false;
+    if (!complete && !(this.dirty && (this.turning || this.pace.due(now)))) return;
+    if (!complete) this.pace.add(now);
+    this.cloud.setShare(complete || ALL ? 1 : this.pace.share, FEWEST);
+    this.dirty = this.turning = false;
     this.renderer.render(this.scene, this.camera);
   }
 

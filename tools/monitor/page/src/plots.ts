@@ -117,9 +117,14 @@ export class Plots {
   private states: WindowState[] = [];
   private changed = false;
 
-  constructor() {
+  // `pause`: ms to leave between two drawings where the computer is slow.
+  constructor(private readonly pause: () => number) {
     element("plots-empty").textContent = "no estimate yet: the last minute of velocity, uncertainty, biases and times comes here";
-    setInterval(() => this.draw(), REDRAW_MS);
+    const draw = () => {
+      this.draw();
+      setTimeout(draw, Math.max(REDRAW_MS, this.pause()));
+    };
+    draw();
   }
 
   add(state: WindowState): void {

@@ -7,7 +7,7 @@ const [binaries, sources, executablePath] = process.argv.slice(2);
 const pipeline = new Pipeline(binaries, sources);
 const browser = await chromium.launch({
   executablePath,
-  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage"],
+  args: ["--no-sandbox", "--disable-gpu-compositing", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage"],
 });
 const errors = [];
 let page;
