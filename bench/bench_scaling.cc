@@ -14,15 +14,21 @@
 namespace evit::bench {
 namespace {
 
-// What frame_builder does with one second of packets while tracking: decode, merge, surfaces, keyframes.
-void EventRate(benchmark::State& state) {
-  const double rate = 1e5 * static_cast<double>(state.range(0));
+// What frame_builder does with one second of packets while tracking, `rate` events of a sensor of this size:
+// decode, merge, surfaces, keyframes.
+void OneSecond(benchmark::State& state, double rate, int width, int height) {
+  EventArray sweep = MovingEdges(static_cast<std::size_t>(rate), rate);
+  for (std::size_t k = 0; k < sweep.size(); ++k) {
+    sweep.x[k] = static_cast<std::uint16_t>(sweep.x[k] * width / 640);
+    sweep.y[k] = static_cast<std::uint16_t>(sweep.y[k] * height / 480);
+  }
   std::vector<std::vector<std::uint8_t>> packets;
-  for (const event_packet_t& packet : ToPackets(MovingEdges(static_cast<std::size_t>(rate), rate), 1, 0)) {
+  for (const event_packet_t& packet : ToPackets(sweep, 1, 0)) {
     packets.emplace_back();
     EncodeTo(packet, &packets.back());
   }
-  const Rig rig = LoadRig(test::SourcePath("config/vector/rig.textproto"));
+  Rig rig = LoadRig(test::SourcePath("config/vector/rig.textproto"));
+  rig.camera.width = width, rig.camera.height = height;
   const PipelineOptions pipeline = LoadOptions(test::SourcePath("config/tracker.textproto"));
   TrackerFeedback feedback;
   feedback.mode = TrackerFeedback::Mode::kTracking;
@@ -49,6 +55,10 @@ void EventRate(benchmark::State& state) {
   state.counters["ns_per_event"] = benchmark::Counter(
       rate * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
+
+void EventRate(benchmark::State& state) {
+  OneSecond(state, 1e5 * static_cast<double>(state.range(0)), 640, 480);
+}
 BENCHMARK(EventRate)
     ->Name("Scaling, event rate")
     ->ArgName("100 kev/s")
@@ -60,6 +70,20 @@ BENCHMARK(EventRate)
     ->Arg(50)
     ->Arg(100)
     ->Arg(200)
+    ->Unit(benchmark::kMillisecond);
+
+// QVGA, VGA, 720p, full HD, each with 20 million events/s.
+void Resolution(benchmark::State& state) {
+  const auto height = static_cast<int>(state.range(0));
+  OneSecond(state, 2e7, height * (height >= 720 ? 16 : 12) / 9, height);
+}
+BENCHMARK(Resolution)
+    ->Name("Scaling, resolution")
+    ->ArgName("lines")
+    ->Arg(240)
+    ->Arg(480)
+    ->Arg(720)
+    ->Arg(1080)
     ->Unit(benchmark::kMillisecond);
 
 void MapSize(benchmark::State& state) {

@@ -23,6 +23,8 @@ struct Curve {
 
 constexpr Curve kCurves[] = {
     {"event rate", "100 kev/s", 0.1, "event_rate", "frame_builder: a second of data", "million events/s"},
+    {"resolution", "lines", 1, "resolution", "frame_builder: a second of 20 million events",
+     "lines of the sensor"},
     {"map size", "1000 points", 0.001, "map_size", "map_server: one query", "million points"},
     {"window", "keyframes", 1, "window_keyframes", "solve, 1000 points each", "keyframes"},
     {"window", "points", 1, "window_points", "solve, 5 keyframes", "points per keyframe"}};
@@ -44,7 +46,7 @@ bool OfThisSweep(const std::string& name, const Curve& curve) {
 
 void WriteCurves(const Results& results, const std::string& folder) {
   std::filesystem::create_directories(folder);
-  cv::Mat image(900, 1300, CV_8UC3, cv::Scalar::all(255));
+  cv::Mat image(1350, 1300, CV_8UC3, cv::Scalar::all(255));
   int place = 0;
   for (const Curve& curve : kCurves) {
     std::map<double, double> points;  // x, ms

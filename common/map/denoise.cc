@@ -75,6 +75,8 @@ class Neighbours {
     cells_.reserve(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) cells_.emplace_back(Key(Cell(points[i])), i);
     std::sort(cells_.begin(), cells_.end());
+    sorted_.reserve(points.size());
+    for (const auto& [cell, i] : cells_) sorted_.push_back(points[i]);
   }
 
   /// Calls visit(index) for each point, cell by cell, and gathers what is around a cell once for all its
@@ -123,7 +125,8 @@ class Neighbours {
         // A crowd is asked in part: the time must not grow with its square.
         const auto step = 1 + (end - begin) / kCrowd;
         for (auto it = begin; it < end; it += std::min(step, end - it)) {
-          Add(points_[it->second], static_cast<std::int32_t>(it->second), static_cast<float>(step));
+          Add(sorted_[static_cast<std::size_t>(it - cells_.begin())], static_cast<std::int32_t>(it->second),
+              static_cast<float>(step));
         }
       }
     }
@@ -155,6 +158,7 @@ class Neighbours {
   double inverse_;
   float radius2_;
   std::vector<std::pair<std::uint64_t, std::size_t>> cells_;
+  std::vector<Eigen::Vector3f> sorted_;    // points in the order of cells_: what is gathered lies together
   std::vector<float> x_, y_, z_, counts_;  // around the cell that ForEachPoint() is at
   std::vector<std::int32_t> indices_, places_;
   std::vector<float> dx_, dy_, dz_, dn_;  // near a point, relative to it

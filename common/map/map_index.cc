@@ -82,25 +82,27 @@ MapIndex::MapIndex(PointMap map) : impl_(std::make_unique<Impl>()) {
   Impl& m = *impl_;
   m.map = std::move(map);
   const auto& points = m.map.points;
-  const auto key = [&](std::int32_t k) -> std::array<std::int32_t, 3> {
-    const Eigen::Vector3f c = (points[k] / kCell).array().floor().max(-kFarthest).min(kFarthest);
-    return {static_cast<std::int32_t>(c.x()), static_cast<std::int32_t>(c.y()),
-            static_cast<std::int32_t>(c.z())};
-  };
-  m.ids.resize(points.size());
-  std::iota(m.ids.begin(), m.ids.end(), 0);
-  std::vector<std::array<std::int32_t, 3>> keys;
+  // Cell and id of each point, sorted by both.
+  std::vector<std::array<std::int32_t, 4>> keys;
   keys.reserve(points.size());
-  for (std::size_t k = 0; k < points.size(); ++k) keys.push_back(key(static_cast<std::int32_t>(k)));
-  std::stable_sort(m.ids.begin(), m.ids.end(),
-                   [&](std::int32_t a, std::int32_t b) { return keys[a] < keys[b]; });
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Eigen::Vector3f c = (points[k] / kCell).array().floor().max(-kFarthest).min(kFarthest);
+    keys.push_back({static_cast<std::int32_t>(c.x()), static_cast<std::int32_t>(c.y()),
+                    static_cast<std::int32_t>(c.z()), static_cast<std::int32_t>(k)});
+  }
+  std::sort(keys.begin(), keys.end());
+  m.ids.reserve(points.size());
   m.ordered.Resize(points.size());
-  for (std::size_t k = 0; k < points.size(); ++k) m.ordered.Set(k, points[m.ids[k]]);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    m.ids.push_back(keys[k][3]);
+    m.ordered.Set(k, points[m.ids[k]]);
+  }
 
   for (std::size_t begin = 0; begin < m.ids.size();) {
     std::size_t end = begin;
     Eigen::AlignedBox3f box;
-    while (end < m.ids.size() && keys[m.ids[end]] == keys[m.ids[begin]]) box.extend(m.ordered.At(end++));
+    while (end < m.ids.size() && std::equal(keys[end].begin(), keys[end].begin() + 3, keys[begin].begin()))
+      box.extend(m.ordered.At(end++));
     // The margin covers what single precision loses when the cell is turned into the camera's frame.
     const float slack = 1e-4F + 1e-6F * box.center().norm();
     m.cells.push_back({box.center(), 0.5F * box.diagonal().norm() + slack, static_cast<std::int32_t>(begin),

@@ -9,8 +9,7 @@
 namespace evit {
 
 /// Writes a zip archive of files (name in the archive, contents), for tests.
-inline void WriteZip(const std::string& path,
-                     const std::vector<std::pair<std::string, std::string>>& files) {
+inline void WriteZip(const std::string& path, const std::vector<std::pair<std::string, std::string>>& files) {
   int code = 0;
   zip_t* archive = ::zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
   if (archive == nullptr) throw std::runtime_error(path);

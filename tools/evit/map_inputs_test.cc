@@ -53,7 +53,9 @@ class MapInputsTest : public testing::Test {
     fs::remove(File("map.pcd"));
     return RunEvit("map build --out " + File("map.pcd") + " " + arguments);
   }
-  std::string Calibrated() const { return " --poses " + File("poses.tum") + " --camera " + File("camera.textproto"); }
+  std::string Calibrated() const {
+    return " --poses " + File("poses.tum") + " --camera " + File("camera.textproto");
+  }
   void ExpectGoodMap(const ProgramOutcome& outcome, double median_m = 0.005) const {
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     const std::vector<double> errors = painted_->Errors(File("map.pcd"));
@@ -85,7 +87,8 @@ std::string StampName(Utime t) {
 TEST_F(MapInputsTest, AZipOfPicturesWithStampsAndPosesAtAnotherRate) {
   std::vector<std::pair<std::string, std::string>> files;
   for (std::size_t k = 0; k < painted_->pictures.size(); ++k)
-    files.emplace_back("left_camera/" + StampName(painted_->poses[k].t), PaintedPictures::Png(painted_->pictures[k]));
+    files.emplace_back("left_camera/" + StampName(painted_->poses[k].t),
+                       PaintedPictures::Png(painted_->pictures[k]));
   files[7].second.resize(200);
   WriteZip(File("left.zip"), files);
   Trajectory dense = Dense({});
@@ -105,7 +108,8 @@ TEST_F(MapInputsTest, ABagOfRosWithGreyColourOrCompressedImages) {
       cv::Mat colour;
       cv::merge(std::vector<cv::Mat>{grey, grey, grey}, colour);
       const Utime t = painted_->poses[k].t;
-      Record(&bag, "/camera/left/image_mono", t, ImageMessage(t, 200, 150, "mono8", PaintedPictures::Raw(grey)), 30'000);
+      Record(&bag, "/camera/left/image_mono", t,
+             ImageMessage(t, 200, 150, "mono8", PaintedPictures::Raw(grey)), 30'000);
       Record(&bag, "/camera/left/image", t, ImageMessage(t, 200, 150, "bgr8", PaintedPictures::Raw(colour)));
       Record(&bag, "/camera/left/compressed", t,
              CompressedImageMessage(t, "mono8; png compressed", PaintedPictures::Png(grey)));
@@ -166,15 +170,17 @@ TEST_F(MapInputsTest, DepthOfAnotherCamera) {
   for (std::size_t k = 0; k < painted_->pictures.size(); ++k) {
     const StampedPose& pose = painted_->poses[k];
     Write("grey/" + StampName(pose.t), PaintedPictures::Png(painted_->pictures[k]));
-    depth.emplace_back("depth/" + StampName(pose.t),
-                       PaintedPictures::Png(painted_->scene.Depth(kinect.camera, pose.pose * T_grey_depth, 1000)));
+    depth.emplace_back("depth/" + StampName(pose.t), PaintedPictures::Png(painted_->scene.Depth(
+                                                         kinect.camera, pose.pose * T_grey_depth, 1000)));
   }
   WriteZip(File("depth.zip"), depth);
   const std::string arguments = "--images " + File("grey") + " --poses " + File("body.tum") +
-                                " --poses-of body --camera " + File("grey.textproto") + " --depth " + File("depth.zip");
+                                " --poses-of body --camera " + File("grey.textproto") + " --depth " +
+                                File("depth.zip");
   ExpectGoodMap(Build(arguments + " --depth-camera " + File("kinect.textproto")), 0.01);
   ExpectRefused(Build(arguments), "name its own with --depth-camera");
-  WriteZip(File("depth.zip"), {{"depth/" + StampName(PaintedPictures::begin + 3'000'000'000), depth[0].second}});
+  WriteZip(File("depth.zip"),
+           {{"depth/" + StampName(PaintedPictures::begin + 3'000'000'000), depth[0].second}});
   ExpectRefused(Build(arguments + " --depth-camera " + File("kinect.textproto")), "another clock");
 }
 
@@ -191,7 +197,8 @@ TEST_F(MapInputsTest, TwoCamerasOnABody) {
           PaintedPictures::Png(still.scene.Picture(still.camera, still.poses[k].pose * T_left_right)));
   }
   WriteTum(File("poses.tum"), still.poses);
-  const std::string left = "--poses " + File("poses.tum") + " --images " + File("left") + " --camera " + File("left.textproto");
+  const std::string left =
+      "--poses " + File("poses.tum") + " --images " + File("left") + " --camera " + File("left.textproto");
   ExpectGoodMap(Build(left + " --images " + File("right") + " --camera " + File("right.textproto")), 0.01);
   ExpectRefused(Build(left), "depth needs a baseline");
   ExpectRefused(Build(left + " --images " + File("right")), "--camera 1 files: one for each");

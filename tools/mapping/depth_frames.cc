@@ -46,19 +46,20 @@ std::vector<Pair> FindPairs(const ReadFrames& frames, const DepthFrames& depth) 
     std::vector<Pair> pairs = PairByStamp(frames, depth, *stamps);
     if (pairs.size() >= 3) return pairs;
     const auto [first, last] = std::minmax_element(stamps->begin(), stamps->end());
-    throw std::runtime_error(
-        depth.path + ": " + std::to_string(pairs.size()) + " of " + std::to_string(frames.views.size()) +
-        " pictures have a depth image within " + std::to_string(depth.max_apart / 1000) +
-        " ms; depth is of " + std::to_string(*first / 1'000'000) + " to " + std::to_string(*last / 1'000'000) +
-        " s, pictures are of " + std::to_string(begin / 1'000'000) + " to " + std::to_string(end / 1'000'000) +
-        " s: another recording, or another clock");
+    throw std::runtime_error(depth.path + ": " + std::to_string(pairs.size()) + " of " +
+                             std::to_string(frames.views.size()) + " pictures have a depth image within " +
+                             std::to_string(depth.max_apart / 1000) + " ms; depth is of " +
+                             std::to_string(*first / 1'000'000) + " to " + std::to_string(*last / 1'000'000) +
+                             " s, pictures are of " + std::to_string(begin / 1'000'000) + " to " +
+                             std::to_string(end / 1'000'000) + " s: another recording, or another clock");
   }
   std::vector<Pair> pairs;
   for (std::size_t k = 0; k < frames.views.size(); ++k) {
     if (frames.indices[k] >= depth.source->frames().size()) {
-      throw std::runtime_error(depth.path + ": holds " + std::to_string(depth.source->frames().size()) +
-                               " depth images without stamps, fewer than there are pictures; expected one for "
-                               "each, or a list depth.txt with \"stamp name\" lines");
+      throw std::runtime_error(
+          depth.path + ": holds " + std::to_string(depth.source->frames().size()) +
+          " depth images without stamps, fewer than there are pictures; expected one for "
+          "each, or a list depth.txt with \"stamp name\" lines");
     }
     pairs.push_back({k, frames.indices[k], frames.views[k].T_map_camera});
   }
@@ -106,7 +107,8 @@ cv::Mat MoveDepth(const cv::Mat& depth, const Camera& from, const SE3& T_to_from
   return moved;
 }
 
-RgbdEdges AddDepths(ReadFrames frames, const DepthFrames& depth, const std::function<void(double)>& progress) {
+RgbdEdges AddDepths(ReadFrames frames, const DepthFrames& depth,
+                    const std::function<void(double)>& progress) {
   const std::vector<Pair> pairs = FindPairs(frames, depth);
   SensorDepthOptions sensor;
   sensor.max_depth_m = depth.max_depth_m;

@@ -16,10 +16,10 @@ struct DepthFrames {
   formats::FrameSource* source = nullptr;
   std::string path;
   Camera camera;
-  Trajectory poses;              // T_map_depth, by the stamps of its pictures
-  Utime clock_offset = 0;        // us to add to its stamps to get those of the pictures
+  Trajectory poses;               // T_map_depth, by the stamps of its pictures
+  Utime clock_offset = 0;         // us to add to its stamps to get those of the pictures
   double units_per_metre = 1000;  // of 16-bit depth
-  Utime max_apart = 25'000;      // us, between a picture and its depth
+  Utime max_apart = 25'000;       // us, between a picture and its depth
   double max_depth_m = 8;
   int threads = 2;
 };

@@ -137,8 +137,9 @@ MadeMap Make(const MapMaking& m, const MountedCamera* usual) {
   if (cameras.empty() && usual != nullptr) cameras.push_back(*usual);
   if (m.poses.empty() || cameras.empty()) throw std::runtime_error("--images needs --poses and --camera");
   if (cameras.size() != m.images.size() || m.topics.size() > m.images.size()) {
-    throw std::runtime_error("--images names " + std::to_string(m.images.size()) + " cameras' pictures, --camera " +
-                             std::to_string(cameras.size()) + " files: one for each, in the same order");
+    throw std::runtime_error("--images names " + std::to_string(m.images.size()) +
+                             " cameras' pictures, --camera " + std::to_string(cameras.size()) +
+                             " files: one for each, in the same order");
   }
   if (!m.depth.images.empty() && cameras.size() > 1)
     throw std::runtime_error("--depth goes with the pictures of one camera, not of two");
@@ -152,7 +153,8 @@ MadeMap Make(const MapMaking& m, const MountedCamera* usual) {
     return one;
   };
   ReadCamera first = read(0);
-  if (!m.depth.images.empty()) return BuildFromDepths(ReadDepths(m, std::move(first), cameras[0], posed), m.build);
+  if (!m.depth.images.empty())
+    return BuildFromDepths(ReadDepths(m, std::move(first), cameras[0], posed), m.build);
   ReadFrames frames = std::move(first.frames);
   for (std::size_t k = 1; k < cameras.size(); ++k) Append(read(k).frames, &frames);
   terminal::ProgressBar bar("building");

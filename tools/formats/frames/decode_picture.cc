@@ -106,10 +106,9 @@ cv::Mat DecodeGrey(const StoredPicture& picture, const std::string& name) {
 }
 
 cv::Mat DecodeDepth(const StoredPicture& picture, double units_per_metre, const std::string& name) {
-  const cv::Mat image =
-      picture.encoding.empty()
-          ? Decompress(picture, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR, name)
-          : Unpack(picture, EncodingOf(picture, name), name);
+  const cv::Mat image = picture.encoding.empty()
+                            ? Decompress(picture, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR, name)
+                            : Unpack(picture, EncodingOf(picture, name), name);
   if (image.type() != CV_16UC1 && image.type() != CV_32FC1) {
     throw std::runtime_error(name + ": is no depth image: expected one channel of 16 bits" +
                              (image.depth() == CV_8U ? ", not of 8 (a picture for people?)" : ""));
@@ -118,7 +117,8 @@ cv::Mat DecodeDepth(const StoredPicture& picture, double units_per_metre, const 
   image.convertTo(metres, CV_32F, image.depth() == CV_16U ? 1 / units_per_metre : 1);
   for (int r = 0; r < metres.rows; ++r) {
     auto* row = metres.ptr<float>(r);
-    std::replace_if(row, row + metres.cols, [](float z) { return !(z > 0 && z < 1000); }, 0.0F);
+    std::replace_if(
+        row, row + metres.cols, [](float z) { return !(z > 0 && z < 1000); }, 0.0F);
   }
   return metres;
 }

@@ -56,7 +56,8 @@ TEST(DecodePicture, DepthIsInMetres) {
 }
 
 TEST(DecodePicture, ErrorsNameThePictureAndWhatIsWrong) {
-  EXPECT_THAT(Error(Raw("nv21", {})), HasSubstr("the picture: encoding \"nv21\" is not known; known are mono8"));
+  EXPECT_THAT(Error(Raw("nv21", {})),
+              HasSubstr("the picture: encoding \"nv21\" is not known; known are mono8"));
   StoredPicture cut = Raw("mono8", {});
   cut.bytes.resize(17);
   EXPECT_THAT(Error(cut), HasSubstr("holds 17 bytes"));

@@ -48,8 +48,7 @@ std::vector<std::string> PicturesOf(const FileTree& tree, const std::string& pat
   for (const std::string& name : tree.names()) {
     if (IsPicture(name)) folders[FolderOf(name)].push_back(name);
   }
-  if (folders.empty())
-    throw std::runtime_error(path + ": contains no picture (PNG, JPEG, BMP, TIFF or PGM)");
+  if (folders.empty()) throw std::runtime_error(path + ": contains no picture (PNG, JPEG, BMP, TIFF or PGM)");
   auto chosen = folders.find("");
   if (chosen == folders.end()) {
     chosen = folders.begin();
@@ -81,8 +80,12 @@ FileFrames::FileFrames(std::unique_ptr<FileTree> tree, const std::string& path, 
   const std::string inside = folder.empty() ? "" : folder + "/", above = FolderOf(folder);
   const std::string name_of_folder =
       fs::path(folder.empty() ? fs::weakly_canonical(path).generic_string() : folder).filename().string();
-  const char* lists[] = {depth ? "depth.txt" : "rgb.txt", "images.txt", "image_timestamps.txt",
-                         "timestamps.txt",                "times.txt",  "data.csv"};
+  const char* lists[] = {depth ? "depth.txt" : "rgb.txt",
+                         "images.txt",
+                         "image_timestamps.txt",
+                         "timestamps.txt",
+                         "times.txt",
+                         "data.csv"};
   for (const std::string& place :
        {inside, folder.empty() ? std::string("../") : above + (above.empty() ? "" : "/")}) {
     for (const char* list : lists) {
@@ -137,8 +140,8 @@ bool FileFrames::TakeList(const std::string& list, const std::vector<std::string
       return true;
     }
     if (beside != folder) return false;
-    throw std::runtime_error(path + ": " + std::to_string(nameless) + " rows hold a stamp alone, but there are " +
-                             std::to_string(pictures.size()) +
+    throw std::runtime_error(path + ": " + std::to_string(nameless) +
+                             " rows hold a stamp alone, but there are " + std::to_string(pictures.size()) +
                              " pictures; expected \"stamp name\", or one stamp for each picture");
   }
   if (rows.size() < elsewhere) return false;

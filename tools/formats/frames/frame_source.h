@@ -27,8 +27,8 @@ class FrameSource {
   virtual ~FrameSource() = default;
   /// In the order of names (numbers in them by value), or of the list or topic.
   const std::vector<Frame>& frames() const { return frames_; }
-  /// The k-th. Fast where k ascends; not to be called by two threads at once. Throws std::runtime_error naming
-  /// file or message.
+  /// The k-th. Fast where k ascends; not to be called by two threads at once. Throws std::runtime_error
+  /// naming file or message.
   virtual StoredPicture Fetch(std::size_t k) = 0;
 
  protected:

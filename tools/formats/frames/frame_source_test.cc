@@ -72,7 +72,8 @@ TEST_F(FrameSourceTest, PicturesComeInNaturalOrderWithTheStampsOfTheirNames) {
 TEST_F(FrameSourceTest, FindsThePicturesOneFolderDownAndListsBesideThem) {
   Write("euroc/cam0/data/0001.png", Png(1));
   Write("euroc/cam0/data/0002.png", Png(2));
-  Write("euroc/cam0/data.csv", "#timestamp [ns],filename\n1400000000000000001,0001.png\n1400000000050000001,0002.png\n");
+  Write("euroc/cam0/data.csv",
+        "#timestamp [ns],filename\n1400000000000000001,0001.png\n1400000000050000001,0002.png\n");
   EXPECT_THAT(Stamps(*OpenFrames(Path("euroc/cam0"), {})),
               ElementsAre("1400000000000000001", "1400000000050000001"));
   EXPECT_THAT(Stamps(*OpenFrames(Path("euroc/cam0/data"), {})),
@@ -86,7 +87,8 @@ TEST_F(FrameSourceTest, FindsThePicturesOneFolderDownAndListsBesideThem) {
 TEST_F(FrameSourceTest, TumsColourAndDepthHaveListsOfTheirOwn) {
   for (const char* name : {"rgb/1.png", "rgb/2.png"}) Write(std::string("tum/") + name, Png(1));
   for (const char* name : {"depth/1.png", "depth/2.png"}) Write(std::string("tum/") + name, Png(7));
-  Write("tum/rgb.txt", "# color images\n# timestamp filename\n5.1 rgb/1.png\n5.2 rgb/2.png\n5.3 rgb/gone.png\n");
+  Write("tum/rgb.txt",
+        "# color images\n# timestamp filename\n5.1 rgb/1.png\n5.2 rgb/2.png\n5.3 rgb/gone.png\n");
   Write("tum/depth.txt", "5.11 depth/1.png\n5.21 depth/2.png\n");
   for (const char* path : {"tum", "tum/rgb"}) {
     auto colour = OpenFrames(Path(path), {});
@@ -128,7 +130,8 @@ TEST_F(FrameSourceTest, ABagsImagesHaveTheStampsOfTheirHeaders) {
   EXPECT_THAT(Greys(left.get()), ElementsAre('A', 'A', 'A'));
   EXPECT_EQ(DecodeGrey(left->Fetch(0), "").size(), cv::Size(6, 4));  // back again
   EXPECT_THAT(Greys(OpenFrames(Path("a.bag"), {"/camera/right/compressed"}).get()), ElementsAre(9, 9, 9));
-  EXPECT_FLOAT_EQ(DecodeDepth(OpenFrames(Path("a.bag"), {"", true})->Fetch(1), 1000, "").at<float>(0, 0), 16.705F);
+  EXPECT_FLOAT_EQ(DecodeDepth(OpenFrames(Path("a.bag"), {"", true})->Fetch(1), 1000, "").at<float>(0, 0),
+                  16.705F);
   EXPECT_THAT(Error("a.bag"), HasSubstr("choose one with --topic: /camera"));
   EXPECT_THAT(Error("a.bag", {"/camera/middle"}), HasSubstr("there is no such topic"));
 }

@@ -57,7 +57,8 @@ RosTopic ChooseImages(const MessageStore& store, const std::string& requested, b
   const char* option = depth ? "--depth-topic" : "--topic";
   RosTopic topic = ChooseTopic(store, types, requested, option);
   if (topic.name.empty()) {
-    throw std::runtime_error(store.name() + ": no topic holds images (sensor_msgs/Image or CompressedImage); " +
+    throw std::runtime_error(store.name() +
+                             ": no topic holds images (sensor_msgs/Image or CompressedImage); " +
                              "topics: " + TopicList(store));
   }
   return topic;
