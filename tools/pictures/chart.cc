@@ -10,6 +10,8 @@ namespace evit::pictures {
 namespace {
 
 const cv::Scalar kGrid(230, 230, 230), kAxis(120, 120, 120);
+// Sizes of text: readable where the picture is shown at half its size.
+constexpr double kTitle = 0.66, kLabel = 0.58, kTick = 0.54;
 
 struct Range {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
@@ -42,6 +44,11 @@ std::string TickText(double value, double step) {
   return text;
 }
 
+// Whether a dashed curve is drawn so far from its begin.
+bool IsInk(const Series& series, double length) {
+  return series.dash <= 0 || std::fmod(length, 2.0 * series.dash) < series.dash;
+}
+
 }  // namespace
 
 void DrawText(cv::Mat* image, const std::string& text, cv::Point at, double size, Anchor anchor,
@@ -54,7 +61,7 @@ void DrawText(cv::Mat* image, const std::string& text, cv::Point at, double size
 }
 
 void Chart::Draw(cv::Mat* image, const cv::Rect& where) const {
-  const cv::Rect plot(where.x + 70, where.y + 34, where.width - 90, where.height - 84);
+  const cv::Rect plot(where.x + 78, where.y + 36, where.width - 98, where.height - 88);
   Range rx, ry;
   for (const Series& s : series) {
     for (const double v : s.x) rx.Add(v);
@@ -78,17 +85,17 @@ void Chart::Draw(cv::Mat* image, const cv::Rect& where) const {
     return plot.y + plot.height - (y - ry.low) / (ry.high - ry.low) * plot.height;
   };
 
-  const double step_x = TickStep(rx.high - rx.low, std::max(2, plot.width / 90));
+  const double step_x = TickStep(rx.high - rx.low, std::max(2, plot.width / 105));
   const double step_y = TickStep(ry.high - ry.low, std::max(2, plot.height / 45));
   for (double v = std::ceil(rx.low / step_x) * step_x; v <= rx.high; v += step_x) {
     const int x = static_cast<int>(std::lround(px(v)));
     cv::line(*image, {x, plot.y}, {x, plot.y + plot.height}, kGrid);
-    DrawText(image, TickText(v, step_x), {x, plot.y + plot.height + 18}, 0.42, Anchor::kCenter);
+    DrawText(image, TickText(v, step_x), {x, plot.y + plot.height + 20}, kTick, Anchor::kCenter);
   }
   for (double v = std::ceil(ry.low / step_y) * step_y; v <= ry.high; v += step_y) {
     const int y = static_cast<int>(std::lround(py(v)));
     cv::line(*image, {plot.x, y}, {plot.x + plot.width, y}, kGrid);
-    DrawText(image, TickText(v, step_y), {plot.x - 6, y + 5}, 0.42, Anchor::kRight);
+    DrawText(image, TickText(v, step_y), {plot.x - 6, y + 6}, kTick, Anchor::kRight);
   }
   cv::rectangle(*image, plot, kAxis);
 
@@ -98,25 +105,33 @@ void Chart::Draw(cv::Mat* image, const cv::Rect& where) const {
                      static_cast<int>(std::lround(py(s.y[k]) * (1 << kShift))));
   };
   for (const Series& s : series) {
+    double length = 0;  // pixels, along the curve
     for (std::size_t k = 0; k < s.x.size(); ++k) {
       if (!s.line) {
         cv::circle(*image, point(s, k), 2 << kShift, s.color, cv::FILLED, cv::LINE_AA, kShift);
-      } else if (k > 0 && !(s.gap > 0 && s.x[k] - s.x[k - 1] > s.gap)) {
-        cv::line(*image, point(s, k - 1), point(s, k), s.color, 2, cv::LINE_AA, kShift);
+        continue;
       }
+      if (k == 0 || (s.gap > 0 && s.x[k] - s.x[k - 1] > s.gap)) continue;
+      const cv::Point from = point(s, k - 1), to = point(s, k);
+      if (IsInk(s, length)) cv::line(*image, from, to, s.color, 2, cv::LINE_AA, kShift);
+      length += cv::norm(to - from) / (1 << kShift);
     }
   }
-  DrawText(image, title, {plot.x, where.y + 24}, 0.52, Anchor::kLeft);
-  DrawText(image, x_label, {plot.x + plot.width / 2, plot.y + plot.height + 40}, 0.45, Anchor::kCenter);
-  DrawText(image, y_label, {where.x + 6, where.y + 24}, 0.45, Anchor::kLeft);
+  DrawText(image, title, {plot.x, where.y + 24}, kTitle, Anchor::kLeft);
+  DrawText(image, x_label, {plot.x + plot.width / 2, plot.y + plot.height + 43}, kLabel, Anchor::kCenter);
+  DrawText(image, y_label, {where.x + 6, where.y + 24}, kLabel, Anchor::kLeft);
   int x = plot.x + plot.width;
   for (auto s = series.rbegin(); s != series.rend(); ++s) {  // legend, right-aligned above the plot
     if (s->name.empty()) continue;
     int base = 0;
-    x -= cv::getTextSize(s->name, cv::FONT_HERSHEY_SIMPLEX, 0.45, 1, &base).width;
-    DrawText(image, s->name, {x, where.y + 24}, 0.45, Anchor::kLeft);
-    cv::line(*image, {x - 26, where.y + 19}, {x - 6, where.y + 19}, s->color, 3, cv::LINE_AA);
-    x -= 40;
+    x -= cv::getTextSize(s->name, cv::FONT_HERSHEY_SIMPLEX, kLabel, 1, &base).width;
+    DrawText(image, s->name, {x, where.y + 24}, kLabel, Anchor::kLeft);
+    const int piece = s->dash > 0 ? s->dash : 30;
+    for (int at = 0; at == 0 || at + piece <= 30; at += 2 * piece) {
+      cv::line(*image, {x - 37 + at, where.y + 19}, {x - 37 + std::min(30, at + piece), where.y + 19},
+               s->color, 3, cv::LINE_AA);
+    }
+    x -= 50;
   }
 }
 

@@ -6,6 +6,9 @@
 
 namespace evit::pictures {
 
+/// Colours of Okabe and Ito (B, G, R), which all people can tell apart: vermillion, green, blue, purple.
+inline const cv::Scalar kSafeColors[4] = {{0, 94, 213}, {115, 158, 0}, {178, 114, 0}, {167, 121, 204}};
+
 /// One curve or cloud of points in a chart.
 struct Series {
   std::string name;  // in the legend; empty: not listed
@@ -13,6 +16,7 @@ struct Series {
   std::vector<double> x, y;
   bool line = true;  // false: dots
   double gap = 0;    // lines are broken where x jumps by more than this; 0: never
+  int dash = 0;      // pixels: length of dashes and of what is between them; 0: a full line
 };
 
 /// A chart with axes, ticks, grid, labels and legend, drawn into a rectangle of an image.

@@ -7,8 +7,7 @@ namespace evit::pictures {
 namespace {
 
 constexpr double kDegreesPerRadian = 57.295779513082323;
-const cv::Scalar kColors[3] = {
-    {0, 94, 213}, {115, 158, 0}, {178, 114, 0}};  // x orange, y green, z blue: safe for colour-blind eyes
+constexpr int kDashes[3] = {0, 14, 5};  // of x, y and z: told apart without colour too
 const cv::Scalar kTruth(170, 170, 170), kError(150, 50, 130);
 
 // Rotation relative to `reference` as a rotation vector, degrees: unlike Euler angles it does not jump.
@@ -33,10 +32,11 @@ void PlotRun(const std::string& path, const std::string& title, const Trajectory
   Chart rotation_error{"orientation error", "time [s]", "[deg]", {}, false, true};
   const char* axes[3] = {"x", "y", "z"};
 
-  Series path_truth{"truth", kTruth, {}, {}, true, 0}, path_estimate{"estimate", kColors[2], {}, {}, true, 0};
+  Series path_truth{"truth", kTruth, {}, {}, true, 0},
+      path_estimate{"estimate", kSafeColors[2], {}, {}, true, 0};
   for (int axis = 0; axis < 3; ++axis) {
     Series p_truth{axis == 0 ? "truth" : "", kTruth, {}, {}, true, 0.3}, r_truth = p_truth;
-    Series p{axes[axis], kColors[axis], {}, {}, true, 0.3}, r = p;
+    Series p{axes[axis], kSafeColors[axis], {}, {}, true, 0.3, kDashes[axis]}, r = p;
     for (const StampedPose& s : truth) {
       if (!estimate.empty() && (s.t < estimate.front().t || s.t > estimate.back().t)) continue;
       p_truth.x.push_back(ToSeconds(s.t - t0));

@@ -25,14 +25,14 @@ void MemoryLog::Tick() {
 }
 
 void MemoryLog::Write(const std::string& folder) const {
-  const cv::Scalar colors[] = {{60, 60, 210}, {70, 150, 50}, {190, 110, 30}, {150, 50, 130}};
+  constexpr int kDashes[] = {0, 18, 10, 4};
   std::ofstream csv(folder + "/memory.csv");
   csv << "seconds";
   pictures::Chart chart{"physical memory of each service", "time [s]", "[MB]", {}, false, true};
   for (std::size_t k = 0; k < mb_.size(); ++k) {
     const std::string& name = pipeline_->processes()[k]->command().id;
     csv << ',' << name << "_mb";
-    chart.series.push_back({name, colors[k % 4], seconds_, mb_[k], true, 0});
+    chart.series.push_back({name, pictures::kSafeColors[k % 4], seconds_, mb_[k], true, 0, kDashes[k % 4]});
   }
   csv << '\n';
   for (std::size_t i = 0; i < seconds_.size(); ++i) {

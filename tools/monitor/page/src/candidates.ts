@@ -74,7 +74,7 @@ export class Candidates {
   private draw(place: Places["places"][number], i: number): void {
     const body = new Body({ width: i === 0 ? 2.5 : 1.5 });
     body.setCamera(this.camera);
-    body.setColor(color("truth"));
+    body.setColor(color("place"));
     body.setOpacity(place.significance >= SURE ? 1 : 0.4);
     body.place(place.position, place.orientation);
     this.bodies.push(body);
@@ -104,7 +104,7 @@ export class Candidates {
       use.append(button);
       row.append(
         cell(String(i + 1)),
-        cell(place.position.map((x) => x.toFixed(2)).join("  "), "number"),
+        cell(`${place.position.map((x) => x.toFixed(2).padStart(6)).join(" ")} m`, "number"),
         cell(`${place.significance.toFixed(1)} σ`, "number"),
         use,
       );

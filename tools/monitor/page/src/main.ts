@@ -63,7 +63,7 @@ class Page implements Handler {
 
   connected(yes: boolean): void {
     this.online = yes;
-    this.pictured = false;
+    if (yes) this.forget();
     this.showHeadline();
   }
 
@@ -147,6 +147,19 @@ class Page implements Handler {
     this.answerTimer = window.setTimeout(() => setText("answer", ""), ANSWER_MS);
   }
 
+  // All that is known comes again, perhaps of another pipeline.
+  private forget(): void {
+    this.pictured = false;
+    this.lastMode = this.lastWindow = null;
+    this.pictureLatencies.clear();
+    this.plots.clear();
+    this.mapView.forget();
+    this.candidates.show([]);
+    for (const id of ["position", "speed", "sigma"]) setText(id, "–");
+    this.showLatency();
+    this.showLegend();
+  }
+
   // The first picture may be of long ago: it says nothing of how late pictures are.
   private drew(picture: Picture): void {
     this.connection.send({ order: "drawn", utime: this.pictured ? picture.utime : 0 });
@@ -197,7 +210,7 @@ class Page implements Handler {
     const parts = [
       mapView.hasPose && line("accent", "estimate"),
       mapView.hasTruth && line("truth", "truth"),
-      this.candidates.any && line("truth", "where it may be"),
+      this.candidates.any && line("place", "where it may be"),
       step > 0 && `<span><i class="ramp" style="background:linear-gradient(90deg, ${mapView.cloud.setTheme(isDark())})"></i>height ${low} to ${high} m</span>`,
       step > 0 && line("grid", `grid ${step} m`),
     ];

@@ -171,6 +171,13 @@ export class MapView {
     this.dirty = true;
   }
 
+  // Nothing is known of a body.
+  forget(): void {
+    for (const part of [this.body.object, this.truth.object, this.ellipsoid]) part.visible = false;
+    this.body.object.userData.placed = false;
+    this.clearTrail();
+  }
+
   clearTrail(): void {
     this.trail.clear();
     this.truthTrail.clear();

@@ -1,5 +1,5 @@
 import uPlot from "uplot";
-import { color, element, onThemeChange } from "./dom";
+import { color, element, onThemeChange, setText } from "./dom";
 import type { WindowState } from "./frames";
 
 const SPAN_S = 60;
@@ -115,11 +115,10 @@ class Plot {
 export class Plots {
   private readonly plots = PLANS.map((plan) => new Plot(element("plots"), plan));
   private states: WindowState[] = [];
-  private changed = false;
+  private changed = true;
 
   // `pause`: ms to leave between two drawings where the computer is slow.
   constructor(private readonly pause: () => number) {
-    element("plots-empty").textContent = "no estimate yet: the last minute of velocity, uncertainty, biases and times comes here";
     const draw = () => {
       this.draw();
       setTimeout(draw, Math.max(REDRAW_MS, this.pause()));
@@ -130,17 +129,23 @@ export class Plots {
   add(state: WindowState): void {
     const last = this.states.at(-1);
     if (last && state.utime <= last.utime) this.states = []; // the replay went back, or the past comes again
-    if (this.states.length === 0) element("plots-empty").textContent = "";
     this.states.push(state);
+    this.changed = true;
+  }
+
+  clear(): void {
+    this.states = [];
     this.changed = true;
   }
 
   private draw(): void {
     if (!this.changed || document.hidden) return;
     this.changed = false;
-    const now = this.states.at(-1)!.utime;
+    const empty = this.states.length === 0;
+    setText("plots-empty", empty ? "no estimate yet: the last minute of velocity, uncertainty, biases and times comes here" : "");
+    const now = this.states.at(-1)?.utime ?? 0;
     const first = this.states.findIndex((state) => state.utime > now - 1e6 * SPAN_S);
-    this.states.splice(0, first);
+    this.states.splice(0, Math.max(0, first));
     const seconds = this.states.map((state) => 1e-6 * (state.utime - now));
     for (const plot of this.plots) plot.draw(seconds, this.states);
   }

@@ -57,7 +57,7 @@ async function test() {
   const place = (x, significance) => ({ position: [x, 0, 1], orientation: [0, 0, 0, 1], significance });
   line.send(JSON.stringify({ type: "places", places: [place(1, 7.5), place(2, 3.1)] }));
   await until("the candidates", async () => (await page.locator("#candidates tr").count()) === 2);
-  assert.match(await text("candidates"), /1\.00 {2}0\.00 {2}1\.00.*7\.5 σ/s);
+  assert.match(await text("candidates"), /1\.00 +0\.00 +1\.00 m.*7\.5 σ/s);
   await page.click("#candidates tr:first-child button");
   await until("that nobody takes a pose yet", async () => (await text("answer")).includes("no pipeline is running"));
   line.send(JSON.stringify({ type: "places", places: [] }));
@@ -94,7 +94,7 @@ async function test() {
   await late.goto(`http://127.0.0.1:${PORT}/`);
   await until("the past", async () => /mm/.test(await late.textContent("#sigma")));
   await until("the last picture", async () => /\d ms/.test(await late.textContent("#decay")));
-  assert.equal(await late.textContent("#plots-empty"), "");
+  await until("the plots", async () => (await late.textContent("#plots-empty")) === "");
   await until("all points of the map drawn", async () => (await late.getAttribute("#map", "data-drawn")) === "24060");
   const calls = Number(await late.getAttribute("#map", "data-calls"));
   assert.ok(calls > 0 && calls < 30, `${calls} draw calls`);

@@ -194,6 +194,7 @@ async function soak() {
   await serving();
   const browser = await launch("--js-flags=--expose-gc", "--enable-precise-memory-info");
   const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
+  page.setDefaultTimeout(0); // a busy host
   await page.goto(`http://127.0.0.1:${PORT}/`);
   let over = false;
   const begun = Date.now();
