@@ -3,6 +3,7 @@
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "common/config/config_error.h"
@@ -152,6 +153,18 @@ LoadedSettings LoadSettings(const std::string& path) {
 
 PipelineOptions LoadOptions(const std::string& path) {
   return path.empty() ? PipelineOptions() : LoadSettings(path).options;
+}
+
+PipelineOptions LoadOptionsFor(const Camera& camera, const std::string& path) {
+  constexpr double kDefaultsFor = 640;  // pixels wide
+  LoadedSettings loaded;
+  if (!path.empty()) loaded = LoadSettings(path);
+  PipelineOptions& o = loaded.options;
+  const double scale = std::max(1.0, camera.width / kDefaultsFor);
+  if (loaded.set.count("keyframes.n_event") == 0)
+    o.keyframes.n_event = static_cast<int>(std::lround(scale * o.keyframes.n_event));
+  if (loaded.set.count("points.margin_px") == 0) o.points.margin_px *= scale;
+  return o;
 }
 
 }  // namespace evit

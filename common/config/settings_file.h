@@ -6,6 +6,7 @@
 
 #include "common/config/pipeline_options.h"
 #include "common/config/setting.h"
+#include "common/geometry/camera.h"
 
 namespace evit {
 
@@ -23,5 +24,11 @@ LoadedSettings LoadSettings(const std::string& path);
 
 /// The options alone. An empty path: the defaults.
 PipelineOptions LoadOptions(const std::string& path);
+
+/// The same for a sensor of this size. What the file says nothing of follows a sensor wider than VGA: the
+/// same motion crosses more pixels there and causes more events along each edge, so keyframes.n_event and
+/// points.margin_px grow with the width. Smaller sensors keep the defaults: with fewer events a keyframe a
+/// DAVIS240 had the same errors, for more CPU.
+PipelineOptions LoadOptionsFor(const Camera& camera, const std::string& path);
 
 }  // namespace evit

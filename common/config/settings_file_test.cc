@@ -189,6 +189,21 @@ TEST_F(SettingsFile, TwoMethodsAreOneTooMany) {
   ExpectTextRefused("evit { }\nevt { }", ":2:1", {"evt: cannot be there beside evit"});
 }
 
+TEST_F(SettingsFile, DefaultsFollowAWiderSensor) {
+  Camera camera;
+  camera.width = 1280, camera.height = 720;
+  const PipelineOptions plain = LoadOptions(""), wide = LoadOptionsFor(camera, "");
+  EXPECT_EQ(wide.keyframes.n_event, 2 * plain.keyframes.n_event);
+  EXPECT_DOUBLE_EQ(wide.points.margin_px, 2 * plain.points.margin_px);
+  EXPECT_EQ(wide.points.per_keyframe, plain.points.per_keyframe);
+  const PipelineOptions set =
+      LoadOptionsFor(camera, Write("a.textproto", "keyframes { n_event: 9000 } points { margin_px: 50 }"));
+  EXPECT_EQ(set.keyframes.n_event, 9000);
+  EXPECT_DOUBLE_EQ(set.points.margin_px, 50);
+  camera.width = 240, camera.height = 180;
+  EXPECT_EQ(LoadOptionsFor(camera, "").keyframes.n_event, plain.keyframes.n_event);
+}
+
 TEST_F(SettingsFile, AFileThatIsNotThereIsNamed) {
   ExpectRefused(LoadOptions, "/nonexistent/tracker.textproto", "", {"cannot be read"});
   EXPECT_THROW(LoadOptions(kConfig), ConfigError) << "a folder";

@@ -5,9 +5,9 @@
 namespace evit {
 namespace {
 
-constexpr double kRandomShare = 1.0 / 3;  // of the systematic variance
-constexpr double kMostMotion = 30;        // pixels
-constexpr double kLongest = 1e6;          // us
+constexpr double kRandomShare = 1.0 / 3;    // of the systematic variance
+constexpr double kMostMotion = 30.0 / 640;  // of the image's width
+constexpr double kLongest = 1e6;            // us
 
 // Of the systematic to the random variance, over three axes from `first` on.
 double Ratio(const KeyframeNeed& need, int first) {
@@ -22,7 +22,7 @@ Utime UsefulInterval(const KeyframeNeed& need) {
   if (need.interval <= 0 || !(need.image_speed > 0)) return 0;
   const double by_covariance =
       kRandomShare * std::min(Ratio(need, 0), Ratio(need, 3)) * static_cast<double>(need.interval);
-  const double by_motion = 1e6 * kMostMotion / need.image_speed;
+  const double by_motion = 1e6 * kMostMotion * need.image_width / need.image_speed;
   return static_cast<Utime>(std::min({by_covariance, by_motion, kLongest}));
 }
 

@@ -41,6 +41,13 @@ TEST(UsefulInterval, FastMotionMakesItShort) {
   EXPECT_EQ(UsefulInterval(need), 10'000);
 }
 
+TEST(UsefulInterval, AFinerSensorSeesTheSameMotionInMorePixels) {
+  KeyframeNeed need = Need(60, 120);
+  need.image_speed = 2'000;
+  need.image_width = 1280;
+  EXPECT_EQ(UsefulInterval(need), 30'000);
+}
+
 TEST(UsefulInterval, IsNothingWhereNothingIsKnown) {
   EXPECT_EQ(UsefulInterval(Need(0, 0)), 0);
   KeyframeNeed need = Need(60, 120);

@@ -16,7 +16,7 @@ int Main(int argc, char** argv) {
   if (const auto code = line.Parse(argc, argv)) return *code;
   evit::FrameBuilder::Settings settings;
   settings.rig = evit::LoadRig(rig);
-  const evit::PipelineOptions pipeline = evit::LoadOptions(config);
+  const evit::PipelineOptions pipeline = evit::LoadOptionsFor(settings.rig.camera, config);
   settings.keyframes = {pipeline.keyframes, pipeline.surface,
                         pipeline.method == evit::PipelineOptions::Method::kEvpt
                             ? evit::Keyframe::Encoding::kEventCount

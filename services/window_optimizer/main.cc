@@ -41,11 +41,12 @@ int Main(int argc, char** argv) {
            "from the initial pose)");
   evit::AddServiceOptions(&line, &options);
   if (const auto code = line.Parse(argc, argv)) return *code;
-  const evit::PipelineOptions pipeline = evit::LoadOptions(config);
+  const evit::Rig calibration = evit::LoadRig(rig);
+  const evit::PipelineOptions pipeline = evit::LoadOptionsFor(calibration.camera, config);
   const bool evit = pipeline.method == evit::PipelineOptions::Method::kEvit;
   if (pose.empty() && !evit) return line.Missing("--initial-pose, which methods EVT and EVPT need,");
-  evit::WindowOptimizer::Settings settings{
-      evit::LoadRig(rig), TrackerPart(pipeline), evit::SE3(), options.lossless, checkpoint, std::nullopt};
+  evit::WindowOptimizer::Settings settings{calibration, TrackerPart(pipeline), evit::SE3(), options.lossless,
+                                           checkpoint,  std::nullopt};
   if (!pose.empty()) settings.T_map_body = evit::ParsePose("--initial-pose", pose);
   if (evit) {
     settings.locate.emplace();

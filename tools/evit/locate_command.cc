@@ -88,7 +88,7 @@ bool LocateOften(const LocateOptions& o, const locate::RecordedStreams& streams,
 
 int Locate(const LocateOptions& o) {
   const Rig rig = LoadRig(o.rig);
-  const PipelineOptions options = LoadOptions(o.config);
+  const PipelineOptions options = LoadOptionsFor(rig.camera, o.config);
   LocatingTracker::Options locating;
   locating.search.prior = ParsePlacePrior(o.place.near, o.place.height, o.place.yaw);
   const int threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 4);

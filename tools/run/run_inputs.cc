@@ -64,8 +64,7 @@ std::optional<SE3> StartPose(const RunJob& job, Utime begin) {
 
 RunInputs PrepareRun(const RunJob& job) {
   RunInputs inputs;
-  LoadRig(job.rig);
-  const PipelineOptions options = LoadOptions(job.config);
+  const PipelineOptions options = LoadOptionsFor(LoadRig(job.rig).camera, job.config);
   inputs.settings = SettingsText(options);
   const bool photometric = options.method == PipelineOptions::Method::kEvpt;
   const std::string settings = job.config.empty() ? "the default settings" : job.config;
