@@ -1,10 +1,13 @@
-// Recordings on disk: EVT 3.0 and HDF5 to a log, as evit import does it, against the same decoded word by
+// Recordings on disk to a log, as evit import does it; EVT 3.0 against the same decoded word by
 // word and event by event.
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <vector>
 
 #include "bench/counters.h"
 #include "tools/formats/hdf5/event_file_writer.h"
@@ -32,11 +35,47 @@ class Files {
     formats::EventFileWriter h5(In("a.h5"), 0);
     h5.Append(events);
     h5.Close();
+    WriteDat(events);
+    WriteNumpy(events);
+    WriteText(events);
   }
   ~Files() { std::filesystem::remove_all(folder_); }
   std::string In(const std::string& name) const { return (folder_ / name).string(); }
 
  private:
+  void WriteDat(const EventArray& events) const {
+    std::ofstream file(In("a.dat"), std::ios::binary);
+    file << "% Version 2\n% Height 720\n% Width 1280\n" << std::string("\x0C\x08", 2);
+    for (std::size_t k = 0; k < events.size(); ++k) {
+      const std::uint32_t word[] = {
+          static_cast<std::uint32_t>(events.t[k]),
+          events.x[k] | std::uint32_t{events.y[k]} << 14 | std::uint32_t{events.p[k]} << 28};
+      file.write(reinterpret_cast<const char*>(word), sizeof word);
+    }
+  }
+  void WriteNumpy(const EventArray& events) const {
+    std::string header =
+        "{'descr': [('t', '<i8'), ('x', '<u2'), ('y', '<u2'), ('p', '|u1')], 'fortran_order': False, "
+        "'shape': (" +
+        std::to_string(events.size()) + ",), }\n";
+    std::ofstream file(In("a.npy"), std::ios::binary);
+    file << std::string("\x93NUMPY\x01\0", 8) << static_cast<char>(header.size() & 0xFF)
+         << static_cast<char>(header.size() >> 8) << header;
+    for (std::size_t k = 0; k < events.size(); ++k) {
+      file.write(reinterpret_cast<const char*>(&events.t[k]), 8);
+      file.write(reinterpret_cast<const char*>(&events.x[k]), 2);
+      file.write(reinterpret_cast<const char*>(&events.y[k]), 2);
+      file.write(reinterpret_cast<const char*>(&events.p[k]), 1);
+    }
+  }
+  void WriteText(const EventArray& events) const {
+    std::FILE* file = std::fopen(In("a.txt").c_str(), "w");
+    for (std::size_t k = 0; k < events.size(); ++k)
+      std::fprintf(file, "%.6f %d %d %d\n", 1e-6 * static_cast<double>(events.t[k]), events.x[k], events.y[k],
+                   events.p[k]);
+    std::fclose(file);
+  }
+
   const std::filesystem::path folder_ =
       std::filesystem::temp_directory_path() / ("bench_formats_" + std::to_string(getpid()));
 };
@@ -97,6 +136,29 @@ BENCHMARK(Evt3Reference)->Name("EVT 3.0 to log, events/reference")->Unit(benchma
 
 void Hdf5(benchmark::State& state) { Import(state, "a.h5"); }
 BENCHMARK(Hdf5)->Name("HDF5 (Zstandard) to log, events/ours")->Unit(benchmark::kMillisecond);
+
+void Dat(benchmark::State& state) { Import(state, "a.dat"); }
+BENCHMARK(Dat)->Name("DAT to log, events/ours")->Unit(benchmark::kMillisecond);
+
+void Numpy(benchmark::State& state) { Import(state, "a.npy"); }
+BENCHMARK(Numpy)->Name("numpy to log, events/ours")->Unit(benchmark::kMillisecond);
+
+void Text(benchmark::State& state) { Import(state, "a.txt"); }
+BENCHMARK(Text)->Name("text to log, events/ours")->Unit(benchmark::kMillisecond);
+
+// The least that any import does: the bytes of the log are written.
+void WriteBytes(benchmark::State& state) {
+  constexpr std::size_t kLogBytes = 9 * kEvents, kBlock = 63 << 10;
+  const std::vector<char> bytes(kLogBytes, 1);
+  for (auto _ : state) {
+    std::FILE* file = std::fopen(Made().In("bytes").c_str(), "wb");
+    for (std::size_t at = 0; at < kLogBytes; at += kBlock)
+      std::fwrite(bytes.data() + at, 1, std::min(kBlock, kLogBytes - at), file);
+    std::fclose(file);
+  }
+  PerSecond(state, kEvents, 0, 0);
+}
+BENCHMARK(WriteBytes)->Name("bytes of the log, events/reference")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace evit::bench

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -27,6 +28,17 @@ ProcessUsage ReadProcessUsage(pid_t pid) {
   usage.vsize_bytes = vsize * sysconf(_SC_PAGESIZE);
   usage.rss_bytes = rss * sysconf(_SC_PAGESIZE);
   return usage;
+}
+
+double ReadProcessorWait(pid_t pid) {
+  double seconds = 0;
+  std::error_code gone;
+  for (const auto& task :
+       std::filesystem::directory_iterator("/proc/" + std::to_string(pid) + "/task", gone)) {
+    double running = 0, waiting = 0;  // ns
+    if (std::ifstream(task.path() / "schedstat") >> running >> waiting) seconds += 1e-9 * waiting;
+  }
+  return seconds;
 }
 
 HostUsage ReadHostUsage() {

@@ -12,7 +12,8 @@
 namespace evit::diagnosis {
 namespace {
 
-constexpr double kFits = 0.08;  // overlap, of 1: more is no chance
+constexpr double kFits = 0.08;               // overlap, of 1: more is no chance
+constexpr Utime kLongestOffset = 1'000'000;  // us, of the camera's clock
 constexpr double kPi = 3.14159265358979323846;
 
 // Everything that an assumption can change.
@@ -27,10 +28,13 @@ struct Assumption {
   std::function<void(World*)> make;
 };
 
-Trajectory Around(const Trajectory& truth, Utime t) {
+// The poses within `reach` us of the excerpts.
+Trajectory Around(const Trajectory& truth, const EventExcerpts& excerpts, Utime time_offset, Utime reach) {
   Trajectory part;
-  for (const StampedPose& s : truth)
-    if (std::abs(s.t - t) < 400'000) part.push_back(s);
+  for (const StampedPose& s : truth) {
+    const auto near = [&](Utime t) { return std::abs(s.t - t - time_offset) < reach; };
+    if (std::any_of(excerpts.instants().begin(), excerpts.instants().end(), near)) part.push_back(s);
+  }
   return part;
 }
 
@@ -171,6 +175,32 @@ std::optional<Finding> OtherUnit(const MapIndex& map, const World& world, const 
   return {};
 }
 
+// How far off the camera's clock is, by tenths of a second, where the map then lies on the events: the gyro
+// says nothing of it while the camera turns evenly.
+std::optional<Finding> OtherClock(const MapIndex& map, const World& world, const EventExcerpts& excerpts) {
+  constexpr Utime kStep = 25'000, kTried = 100'000;  // us; less is an assumption of its own
+  double best = kFits;
+  Utime offset = 0;
+  for (Utime size = kTried + kStep; size <= kLongestOffset; size += kStep) {
+    for (const Utime tried : {size, -size}) {
+      World other = world;
+      other.rig.camera_time_offset += tried;
+      if (Measure(map, other, excerpts, 3).kappa() < 0.8 * best) continue;
+      const MapEventOverlap overlap = Measure(map, other, excerpts);
+      if (2 * overlap.views < static_cast<std::int64_t>(excerpts.instants().size())) continue;
+      if (overlap.kappa() > best + 0.02) best = overlap.kappa(), offset = tried;
+    }
+  }
+  if (offset == 0) return {};
+  return Finding{
+      "time-offset", Severity::kError,
+      FormatText("overlap of map and events %.2f, of 1, where it is put right", best),
+      FormatText("The camera's clock is some %.0f ms off the truth's.", 1e3 * ToSeconds(offset)),
+      FormatText(
+          "set `time_offset_us: %.0f` in the rig file's camera, then let `evit calibrate` find it exactly",
+          static_cast<double>(world.rig.camera_time_offset + offset))};
+}
+
 }  // namespace
 
 EventExcerpts::EventExcerpts(std::vector<Utime> instants, Utime reach)
@@ -189,16 +219,7 @@ void EventExcerpts::Add(const EventArray& events) {
 
 Findings CheckOverlap(const MapIndex& map, const Rig& rig, const Trajectory& truth,
                       const EventExcerpts& excerpts) {
-  World as_is{rig, {}};
-  for (const Utime t : excerpts.instants()) {
-    const Trajectory part = Around(truth, t + rig.camera_time_offset);
-    as_is.truth.insert(as_is.truth.end(), part.begin(), part.end());
-  }
-  std::sort(as_is.truth.begin(), as_is.truth.end(),
-            [](const StampedPose& a, const StampedPose& b) { return a.t < b.t; });
-  as_is.truth.erase(std::unique(as_is.truth.begin(), as_is.truth.end(),
-                                [](const StampedPose& a, const StampedPose& b) { return a.t == b.t; }),
-                    as_is.truth.end());
+  const World as_is{rig, Around(truth, excerpts, rig.camera_time_offset, 400'000)};
   const MapEventOverlap given = Measure(map, as_is, excerpts);
   const double kappa = given.views > 0 ? given.kappa() : 0;
   const Assumption* better = nullptr;
@@ -224,6 +245,8 @@ Findings CheckOverlap(const MapIndex& map, const Rig& rig, const Trajectory& tru
              better->remedy}};
   }
   if (given.views == 0 || kappa < 0.03) {
+    const World longer{rig, Around(truth, excerpts, rig.camera_time_offset, kLongestOffset + 400'000)};
+    if (const std::optional<Finding> clock = OtherClock(map, longer, excerpts)) return {*clock};
     if (const std::optional<Finding> unit = OtherUnit(map, as_is, excerpts)) return {*unit};
   }
   if (given.views == 0) {

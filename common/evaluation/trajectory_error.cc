@@ -34,31 +34,48 @@ bool Spreads(const Pairs& pairs, SE3 TrajectoryPair::*side) {
   return across > kMinSpread && across > kMinSpreadRatio * along;
 }
 
-// T_truth_estimate that the estimate is moved by.
-SE3 Align(const Pairs& pairs, Alignment alignment) {
-  if (alignment == Alignment::kFirstPair) return pairs.front().truth * pairs.front().estimate.Inverse();
+// What the estimate is moved by: scaled, then T_truth_estimate.
+struct Move {
+  SE3 T;
+  double scale = 1;
+
+  SE3 Of(const SE3& estimate) const { return T * SE3(estimate.q, scale * estimate.p); }
+};
+
+bool ByPositions(Alignment alignment) {
+  return alignment == Alignment::kUmeyama || alignment == Alignment::kScaled;
+}
+
+Move Align(const Pairs& pairs, Alignment alignment) {
+  if (alignment == Alignment::kFirstPair) return {pairs.front().truth * pairs.front().estimate.Inverse()};
   if (alignment == Alignment::kNone) return {};
-  // Umeyama 1991 without scale.
+  // Umeyama 1991.
   Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = Eigen::Vector3d::Zero();
   for (const TrajectoryPair& p : pairs) a += p.truth.p, b += p.estimate.p;
   a /= static_cast<double>(pairs.size());
   b /= static_cast<double>(pairs.size());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const TrajectoryPair& p : pairs) covariance += (p.truth.p - a) * (p.estimate.p - b).transpose();
+  double spread = 0;
+  for (const TrajectoryPair& p : pairs) {
+    covariance += (p.truth.p - a) * (p.estimate.p - b).transpose();
+    spread += (p.estimate.p - b).squaredNorm();
+  }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
   if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign(2, 2) = -1;
   const Eigen::Matrix3d R = svd.matrixU() * sign * svd.matrixV().transpose();
-  return {Eigen::Quaterniond(R).normalized(), a - R * b};
+  const double scale =
+      alignment == Alignment::kScaled ? (svd.singularValues().asDiagonal() * sign).trace() / spread : 1;
+  return {{Eigen::Quaterniond(R).normalized(), a - scale * (R * b)}, scale};
 }
 
-TrajectoryError ErrorOf(const Pairs& pairs, const SE3& T_truth_estimate) {
+TrajectoryError ErrorOf(const Pairs& pairs, const Move& move) {
   TrajectoryError error;
   error.n_pairs = static_cast<int>(pairs.size());
   if (pairs.empty()) return error;
   double position = 0, orientation = 0;
   for (const TrajectoryPair& p : pairs) {
-    const SE3 moved = T_truth_estimate * p.estimate;
+    const SE3 moved = move.Of(p.estimate);
     const double d = (moved.p - p.truth.p).norm(), angle = AngularDistance(moved.q, p.truth.q);
     position += d * d;
     orientation += angle * angle;
@@ -82,7 +99,7 @@ TrajectoryError AbsoluteError(const Trajectory& truth, const Trajectory& estimat
   const Pairs pairs = MakePairs(truth, estimate);
   TrajectoryError error;
   error.n_pairs = static_cast<int>(pairs.size());
-  error.determined = alignment != Alignment::kUmeyama ||
+  error.determined = !ByPositions(alignment) ||
                      (Spreads(pairs, &TrajectoryPair::truth) && Spreads(pairs, &TrajectoryPair::estimate));
   if (error.scored()) error = ErrorOf(pairs, Align(pairs, alignment));
   error.coverage = Coverage(truth, estimate);

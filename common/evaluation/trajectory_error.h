@@ -9,9 +9,12 @@ enum class Alignment {
   kFirstPair,  // SE(3) of the first pair (the paper's protocol)
   kUmeyama,    // least-squares SE(3) over all pairs (no scale); not determined by a straight line or a
                // standstill
+  kScaled,     // the same with a scale, Sim(3): what is left of the error where the map's scale is off
 };
 
-/// Absolute trajectory error over the pairs of MakePairs (common/evaluation/trajectory_pairs.h).
+/// Absolute trajectory error over the pairs of MakePairs (common/evaluation/trajectory_pairs.h). Where stamps
+/// are equal, so that nothing is interpolated, the figures are those of evo (APE of translation and of the
+/// rotation's angle; RPE over all pairs): evo_definitions.py.
 struct TrajectoryError {
   int n_pairs = 0;
   double position_rmse = 0;     // m

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -108,6 +109,38 @@ TEST(RelativeError, SeesDriftAndNotARigidMove) {
   const TrajectoryError e = RelativeError(Walk(), drifting, 1'000'000);
   EXPECT_NEAR(e.position_rmse, 0.02, 1e-6);  // 2 cm for each second
   EXPECT_EQ(e.n_pairs, 901);
+}
+
+// The numbers are evo_definitions.py's: positions, rotations, the largest of each.
+TEST(TrajectoryError, AgreesWithEvosDefinitionsToTheDigitsPrinted) {
+  Trajectory truth, estimate;
+  const Eigen::Quaterniond turn = ExpSO3({0.2, -0.4, 1});
+  for (int k = 0; k <= 400; ++k) {
+    const double s = 0.02 * k;
+    const Eigen::Quaterniond q = ExpSO3({0.3 * std::sin(s), 0.2 * std::cos(2 * s), 0.5 * s});
+    const Eigen::Vector3d p(std::sin(s), std::cos(1.3 * s), 0.2 * s),
+        e = 0.01 * Eigen::Vector3d(std::sin(7 * s), std::cos(5 * s), std::sin(3 * s)),
+        d = 0.01 * Eigen::Vector3d(std::cos(9 * s), std::sin(11 * s), std::cos(4 * s));
+    truth.push_back({20'000 * k, {q, p}});
+    estimate.push_back(
+        {20'000 * k, {turn * q * ExpSO3(e), 0.97 * (turn * (p + d)) + Eigen::Vector3d(3, 4, 5)}});
+  }
+  const auto expect = [](const TrajectoryError& error, const std::array<double, 4>& expected) {
+    EXPECT_NEAR(error.position_rmse, expected[0], 1e-10);
+    EXPECT_NEAR(error.orientation_rmse, expected[1], 1e-10);
+    EXPECT_NEAR(error.position_max, expected[2], 1e-10);
+    EXPECT_NEAR(error.orientation_max, expected[3], 1e-10);
+  };
+  expect(AbsoluteError(truth, estimate, Alignment::kNone),
+         {6.964211106878, 1.095736002607, 7.944729769403, 1.107314245991});
+  expect(AbsoluteError(truth, estimate, Alignment::kUmeyama),
+         {0.034932460142, 0.012261863566, 0.057991051250, 0.017079317853});
+  expect(AbsoluteError(truth, estimate, Alignment::kScaled),
+         {0.012259546389, 0.012261863566, 0.017518255462, 0.017079317853});
+  expect(RelativeError(truth, estimate, 20'000),
+         {0.002148602349, 0.001289264842, 0.003620108562, 0.001817746301});
+  expect(RelativeError(truth, estimate, 1'000'000),
+         {0.041099982216, 0.017722622354, 0.067232861169, 0.024083885084});
 }
 
 }  // namespace

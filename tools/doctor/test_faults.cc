@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <random>
@@ -47,7 +48,20 @@ void WriteLog(const std::string& path, const Sample& s) {
   log.Close();
 }
 
-bool CameraIsApart(const Rig& rig) { return rig.T_body_camera.p.norm() > 0.01; }
+bool CameraIsApart(const Sample& s) { return s.rig.T_body_camera.p.norm() > 0.01; }
+
+// Whether the image turns by three pixels in so many seconds: a clock that is off by less than that shifts
+// the events by no more than the map's own errors.
+bool Turns(const Sample& s, double seconds) {
+  double sum = 0;
+  for (const ImuSample& i : s.imu) sum += i.gyro.squaredNorm();
+  return std::sqrt(sum / static_cast<double>(s.imu.size())) * s.rig.camera.fx * seconds > 3;
+}
+
+// Whether pixels fire so often that one without any event is no chance.
+bool FiresEverywhere(const Sample& s) {
+  return s.events.size() > 5 * static_cast<std::size_t>(s.rig.camera.width * s.rig.camera.height);
+}
 
 void KeepEvents(Sample* s, const std::function<bool(std::size_t)>& keep) {
   EventArray kept;
@@ -86,6 +100,23 @@ Sample LoadSample(const std::string& log, const std::string& rig, const std::str
   return s;
 }
 
+Sample Piece(const Sample& sample, double begin, double end) {
+  const Utime first = sample.events.t.front(), from = first + std::llround(1e6 * begin),
+              to = first + std::llround(1e6 * end);
+  const auto outside = [&](const auto& s) { return s.t < from || s.t > to; };
+  Sample piece = sample;
+  KeepEvents(&piece, [&](std::size_t k) { return sample.events.t[k] >= from && sample.events.t[k] <= to; });
+  piece.imu.erase(std::remove_if(piece.imu.begin(), piece.imu.end(), outside), piece.imu.end());
+  piece.truth.erase(std::remove_if(piece.truth.begin(), piece.truth.end(), outside), piece.truth.end());
+  return piece;
+}
+
+Sample Thinned(const Sample& sample, int n) {
+  Sample thinned = sample;
+  KeepEvents(&thinned, [n](std::size_t k) { return k % static_cast<std::size_t>(n) != 0; });
+  return thinned;
+}
+
 diagnosis::Findings ExamineSample(const Sample& s) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("evit_doctor_test_" + std::to_string(getpid()));
@@ -121,8 +152,9 @@ const std::vector<Fault>& Faults() {
          c.fx *= 2, c.fy *= 2, c.cx *= 2, c.cy *= 2, c.cx = std::min(c.cx, c.width - 1.0),
                                                      c.cy = std::min(c.cy, c.height - 1.0);
        },
-       [](const Rig& rig) {  // else the rig file is refused
-         return 2 * rig.camera.cx < rig.camera.width && 2 * rig.camera.cy < rig.camera.height;
+       [](const Sample& s) {  // else the rig file is refused
+         const Camera& c = s.rig.camera;
+         return 2 * c.cx < c.width && 2 * c.cy < c.height;
        }},
       {"EventsLostForThreeTenthsOfASecond", "event-gaps",
        [](Sample* s) {
@@ -134,7 +166,8 @@ const std::vector<Fault>& Faults() {
        [](Sample* s) {
          KeepEvents(
              s, [s](std::size_t k) { return (s->events.x[k] * 7919 + s->events.y[k] * 104729) % 10 != 0; });
-       }},
+       },
+       FiresEverywhere},
       {"HotPixels", "hot-pixels",
        [](Sample* s) {
          std::mt19937 random(1);
@@ -224,7 +257,8 @@ const std::vector<Fault>& Faults() {
       {"CameraClock40MsOff", "map-overlap",
        [](Sample* s) {
          for (Utime& t : s->events.t) t += 40'000;
-       }},
+       },
+       [](const Sample& s) { return Turns(s, 0.04); }},
       {"CameraClock60MsOff", "map-overlap",
        [](Sample* s) {
          for (Utime& t : s->events.t) t -= 60'000;

@@ -29,11 +29,16 @@ Sample LoadSample(const std::string& log, const std::string& rig, const std::str
 /// What the doctor says of it.
 diagnosis::Findings ExamineSample(const Sample& sample);
 
+/// The events, IMU samples and poses of [begin, end] s after the first event.
+Sample Piece(const Sample& sample, double begin, double end);
+/// Every `n`th event left out.
+Sample Thinned(const Sample& sample, int n);
+
 struct Fault {
   std::string name;
   std::string check;  // what has to be named first or second
   std::function<void(Sample*)> make;
-  std::function<bool(const Rig&)> applies{};  // where it is one; empty: everywhere
+  std::function<bool(const Sample&)> applies{};  // where it is one, and can show; empty: everywhere
 };
 const std::vector<Fault>& Faults();
 

@@ -24,8 +24,10 @@ struct Row {
   const char* name;
   Alignment alignment;
 };
-constexpr Row kRows[] = {
-    {"none", Alignment::kNone}, {"first pair", Alignment::kFirstPair}, {"Umeyama", Alignment::kUmeyama}};
+constexpr Row kRows[] = {{"none", Alignment::kNone},
+                         {"first pair", Alignment::kFirstPair},
+                         {"Umeyama", Alignment::kUmeyama},
+                         {"with scale", Alignment::kScaled}};
 
 nlohmann::json ToJson(const TrajectoryError& e) {
   if (!e.scored()) return nullptr;
@@ -111,7 +113,8 @@ void Evaluate(const EvalOptions& o) {
   }
   if (!AbsoluteError(truth, estimate, Alignment::kUmeyama).determined) {
     std::printf(
-        "Umeyama is not determined: positions on a straight line, or on one spot, do not say how to turn "
+        "Umeyama, with scale or without, is not determined: positions on a straight line, or on one spot, do "
+        "not say how to turn "
         "the estimate\n");
   }
   std::printf("\nlargest error (no alignment): %.2f cm, %.2f deg\n", 100 * whole.position_max,

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/evaluation/trajectory_error.h"
+#include "procman/process_usage.h"
 #include "tools/run/start_signal.h"
 #include "tools/terminal/progress_bar.h"
 
@@ -12,11 +13,21 @@ namespace evit::run {
 
 namespace {
 
-constexpr double kRealTimeSilence = 5;  // s after the end of the log: nothing more is to come
-constexpr double kStuck = 60;           // s without anything from the tracker
+constexpr double kRealTimeSilence = 5;  // s idle after the end of the log: nothing more is to come
+constexpr double kUsagePeriod = 0.5;    // s
 
 double SecondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+ServiceTime UsedBy(const Pipeline& pipeline) {
+  ServiceTime used;
+  for (const auto& process : pipeline.processes()) {
+    if (!process->running()) continue;
+    used.computing += procman::ReadProcessUsage(process->pid()).cpu_seconds;
+    used.waiting += procman::ReadProcessorWait(process->pid());
+  }
+  return used;
 }
 
 void Show(const Recorder& recorder, terminal::ProgressBar* bar) {
@@ -43,29 +54,38 @@ std::string Player::Play(const StopSignals& signals) {
 std::string Player::WaitForEnd(const StopSignals& signals) {
   terminal::ProgressBar bar("tracking");
   StartSignal start(parts_.remote);
-  Clock::time_point last_activity = Clock::now();
+  StallWatch watch;
+  const Clock::time_point begin = Clock::now();
+  double looked = -kUsagePeriod;
   while (!signals.received()) {
     parts_.bus->Poll(20);
     parts_.pipeline->Watch();
     parts_.memory->Tick();
     if (!job_.play.lossless) start.Tick(*parts_.recorder);
     Show(*parts_.recorder, &bar);
-    if (parts_.recorder->TakeActivity()) last_activity = Clock::now();
-    const double silence = SecondsSince(last_activity);
-    if (Over(silence)) return "finished";
-    RequireHealthy(silence);
+    if (parts_.recorder->TakeActivity()) watch.Progress();
+    if (const double now = SecondsSince(begin); now - looked >= kUsagePeriod) {
+      looked = now;
+      watch.Tick(now, UsedBy(*parts_.pipeline));
+    }
+    if (Over(watch)) return "finished";
+    RequireHealthy(watch);
   }
   return "interrupted";
 }
 
-bool Player::Over(double silence) const {
+bool Player::Over(const StallWatch& watch) const {
   if (parts_.recorder->Finished()) return true;
-  return !job_.play.lossless && parts_.recorder->progress() >= 1 && silence > kRealTimeSilence;
+  return !job_.play.lossless && parts_.recorder->progress() >= 1 && watch.idle() > kRealTimeSilence;
 }
 
-void Player::RequireHealthy(double silence) const {
+void Player::RequireHealthy(const StallWatch& watch) const {
   std::string problem;
-  if (silence > kStuck) problem = "no message from the tracker for 60 s";
+  if (watch.stuck()) {
+    problem = watch.idle() > StallWatch::kIdle
+                  ? "no message from the tracker, and the services have had nothing to do for 60 s"
+                  : "no message from the tracker in ten minutes of computing";
+  }
   if (const std::string& service = parts_.recorder->two_senders(); !service.empty()) {
     throw std::runtime_error(
         "two services say that they are " + service +

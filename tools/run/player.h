@@ -11,6 +11,7 @@
 #include "tools/run/remote.h"
 #include "tools/run/run_inputs.h"
 #include "tools/run/run_job.h"
+#include "tools/run/stall_watch.h"
 
 namespace evit::run {
 
@@ -36,8 +37,8 @@ class Player {
   using Clock = std::chrono::steady_clock;
 
   std::string WaitForEnd(const StopSignals& signals);
-  bool Over(double silence) const;
-  void RequireHealthy(double silence) const;
+  bool Over(const StallWatch& watch) const;
+  void RequireHealthy(const StallWatch& watch) const;
   void PlayAgain();
   void PrintLoop(int loop) const;
 
