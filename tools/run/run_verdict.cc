@@ -1,12 +1,32 @@
 #include "tools/run/run_verdict.h"
 
+#include <set>
+
 #include "common/text/format_text.h"
+#include "common/text/words.h"
 
 namespace evit::run {
 namespace {
 
 constexpr double kMinTracked = 0.5;    // share of the time, below which a run is no success
 constexpr double kMaxUntimely = 0.05;  // share of events or samples that may be left out for their stamps
+
+// Channels on which services heard a second sender, e.g. "EVENTS"; a single message may have been under way
+// from before.
+std::string ForeignChannels(const report::Report& report) {
+  constexpr double kSure = 3;
+  constexpr char kCounter[] = ".two_senders";
+  std::set<std::string> channels;
+  for (const report::Service& service : report.services()) {
+    for (const auto& [name, value] : service.counters()) {
+      if (value >= kSure && EndsWith(name, kCounter))
+        channels.insert(name.substr(0, name.size() - sizeof kCounter + 1));
+    }
+  }
+  std::string list;
+  for (const std::string& channel : channels) list += (list.empty() ? "" : ", ") + channel;
+  return list;
+}
 
 }  // namespace
 
@@ -44,6 +64,12 @@ std::string FailureOf(const report::Report& report, const std::string& reason, d
     return FormatText(
         "poses cover only %.0f %% of the time that was played; mode_changes in report.json say why",
         100 * tracked_share);
+  if (const std::string channels = ForeignChannels(report); !channels.empty()) {
+    return "two senders on " + channels +
+           ": another driver or pipeline was on this bus, and what it sent is mixed into the result; stop "
+           "it, or give "
+           "this run --prefix NAME/ or another port in --lcm-url";
+  }
   if (untimely.events_share > kMaxUntimely || untimely.imu_share > kMaxUntimely) {
     return FormatText(
         "%.0f %% of the events and %.0f %% of the IMU samples came too late or lie far ahead: their "

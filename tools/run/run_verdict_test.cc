@@ -46,6 +46,16 @@ TEST(RunVerdict, MoreThanATwentiethOutOfTimeIsAFailure) {
   EXPECT_THAT(FailureOf(report, "", 0.9, UntimelyOf(report)), HasSubstr("out of order"));
 }
 
+TEST(RunVerdict, WhatASecondSenderSentSpoilsAResult) {
+  report::Report report = Tracked();
+  report::Service* service = report.add_services();
+  service->set_name("frame_builder");
+  (*service->mutable_counters())["EVENTS.two_senders"] = 2;
+  EXPECT_EQ(FailureOf(report, "", 0.9, {}), "");
+  (*service->mutable_counters())["EVENTS.two_senders"] = 3;
+  EXPECT_THAT(FailureOf(report, "", 0.9, {}), HasSubstr("two senders on EVENTS"));
+}
+
 TEST(RunVerdict, PosesMoreThanHalfASecondApartDoNotCoverTheTimeBetween) {
   const Trajectory poses = {{0, SE3()}, {400'000, SE3()}, {1'400'000, SE3()}, {1'500'000, SE3()}};
   EXPECT_DOUBLE_EQ(TrackedShare(poses, 2), 0.25);

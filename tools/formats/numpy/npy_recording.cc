@@ -61,6 +61,10 @@ class NpyEvents : public EventSource {
   bool Time(std::uint64_t row, Utime* t) const {
     const Field& time = fields_[EventColumns::kTime];
     const std::uint8_t* at = rows_.At(time.column, row);
+    if (time.numbers.kind != 'f' && unit_ == TimeUnit::kMicroseconds) {
+      *t = NpyInteger(time.numbers, at);
+      return true;
+    }
     // Whole numbers of other units are dates in ns at most, which a long double holds.
     const long double value =
         static_cast<long double>(MicrosPerUnit(unit_)) *
