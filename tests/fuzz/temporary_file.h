@@ -9,8 +9,8 @@
 
 namespace evit::fuzz {
 
-/// Bytes as a file in memory, for readers that take a path. One at a time. It has a name of its own: HDF5 asks for the
-/// real path of what it opens, which a memfd has not.
+/// Bytes as a file in memory, for readers that take a path. One at a time. It has a name of its own: HDF5
+/// asks for the real path of what it opens, which a memfd has not.
 class TemporaryFile {
  public:
   TemporaryFile(const std::uint8_t* data, std::size_t size) {
@@ -26,8 +26,8 @@ class TemporaryFile {
   const std::string& path() const { return path_; }
 
  private:
-  const std::string path_ = (access("/dev/shm", W_OK) == 0 ? "/dev/shm/evit_fuzz_" : "/tmp/evit_fuzz_") +
-                            std::to_string(getpid());
+  const std::string path_ =
+      (access("/dev/shm", W_OK) == 0 ? "/dev/shm/evit_fuzz_" : "/tmp/evit_fuzz_") + std::to_string(getpid());
 };
 
 }  // namespace evit::fuzz

@@ -125,12 +125,12 @@ void AddUpCommand(CLI::App* app) {
   up->add_option("--lcm-url", o->lcm_url,
                  "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
   up->footer(
-      "Example: EVIT_MAP=map.pcd EVIT_RIG=rig.textproto EVIT_START=\"0 0 0 0 0 0 1\" evit up evit.procman "
-      "robot\n"
-      "Commands inherit this environment; EVIT_CONFIG and EVIT_STATE get defaults. Programs are searched "
-      "beside "
-      "evit, then\n"
-      "on PATH. A command that dies is restarted if its auto_respawn is true.");
+      "Example: EVIT_MAP=map.pcd EVIT_RIG=rig.textproto evit up evit.procman robot\n"
+      "Commands inherit this environment; EVIT_CONFIG and EVIT_STATE get defaults. EVIT_START=\"x y z qx qy "
+      "qz qw\"\n"
+      "gives a start pose; without it the tracker finds its place. Programs are searched beside evit, then "
+      "on PATH.\n"
+      "A command that dies is restarted if its auto_respawn is true.");
   up->callback([o] { Up(*o); });
 }
 

@@ -8,8 +8,8 @@ struct ServiceTime {
   double waiting = 0;    // ready to, but others had the processors
 };
 
-/// Whether a pipeline that says nothing is stuck, on a host of any speed and load: what counts is how long its services
-/// have had nothing to do, not how long they take for it.
+/// Whether a pipeline that says nothing is stuck, on a host of any speed and load: what counts is how long
+/// its services have had nothing to do, not how long they take for it.
 class StallWatch {
  public:
   /// The tracker said something new.

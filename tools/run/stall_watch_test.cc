@@ -6,7 +6,8 @@ namespace evit::run {
 namespace {
 
 // `seconds` in which the services compute and wait for a processor for these shares of one.
-void Pass(double seconds, double computing, double waiting, StallWatch* watch, double* now, ServiceTime* used) {
+void Pass(double seconds, double computing, double waiting, StallWatch* watch, double* now,
+          ServiceTime* used) {
   for (double s = 0; s < seconds; s += 1) {
     *now += 1;
     used->computing += computing;
