@@ -90,5 +90,19 @@ TEST_F(PageAudienceTest, AMapComesInPiecesThatSayHowManyFollow) {
   EXPECT_EQ(next, 40'000U);
 }
 
+TEST_F(PageAudienceTest, AModeIsToldWhenItChangesAndNotWithEachKeyframe) {
+  page_.Connected(1, PageAudience::kProtocol);
+  tracker_mode_t mode = Sample<tracker_mode_t>();
+  page_.OnMode(mode);
+  EXPECT_EQ(Frames(1).size(), 1U);
+  ++mode.keyframe_seq;
+  mode.image_speed += 10;
+  page_.OnMode(mode);
+  EXPECT_TRUE(Frames(1).empty());
+  mode.reason += "!";
+  page_.OnMode(mode);
+  EXPECT_EQ(Frames(1).size(), 1U);
+}
+
 }  // namespace
 }  // namespace evit::monitor

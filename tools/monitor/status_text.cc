@@ -89,11 +89,7 @@ std::string StatusText(const PipelineWatch* watch, const procman::Sheriff* sheri
 
 std::string ModeText(const tracker_mode_t& mode) {
   static constexpr const char* kNames[] = {"bootstrapping", "tracking", "lost"};
-  return Dump({{"type", "mode"},
-               {"mode", kNames[mode.mode]},
-               {"reason", mode.reason},
-               {"image_speed", mode.image_speed},
-               {"keyframe_stride", mode.keyframe_stride}});
+  return Dump({{"type", "mode"}, {"mode", kNames[mode.mode]}, {"reason", mode.reason}});
 }
 
 std::string PlacesText(const places_t& places) {

@@ -19,7 +19,7 @@ struct MonitorFigures {
 std::string StatusText(const PipelineWatch* watch, const procman::Sheriff* sheriff,
                        const MonitorFigures& figures);
 
-/// "type": "mode": what the tracker is doing and why.
+/// "type": "mode": what the tracker is doing and why; nothing that differs from keyframe to keyframe.
 std::string ModeText(const tracker_mode_t& mode);
 
 /// "type": "places": candidates of a search for the start, best first, at most 32.

@@ -14,6 +14,7 @@ namespace {
 
 constexpr char kPlain[] = "\x1b[0m", kDim[] = "\x1b[2m", kGood[] = "\x1b[1;34m", kWait[] = "\x1b[1;33m",
                kBad[] = "\x1b[1;31m";
+constexpr double kDegrees = 57.295779513082323;
 constexpr double kSilentS = 3;  // services send STATUS once a second
 
 // Text from the bus must not steer the terminal.
@@ -55,15 +56,38 @@ const procman_lcm::cmd_status_t* ProcessOf(const procman::Sheriff& sheriff, cons
   return nullptr;
 }
 
+std::int64_t SumOfCounters(const service_status_t& status, const std::string& end) {
+  std::int64_t sum = -1;  // none
+  for (std::size_t i = 0; i < status.counter_name.size(); ++i) {
+    const std::string& name = status.counter_name[i];
+    if (name.size() < end.size() || name.compare(name.size() - end.size(), end.size(), end) != 0) continue;
+    sum = std::max<std::int64_t>(sum, 0) + status.counter_value[i];
+  }
+  return sum;
+}
+
+// Messages that wait in a service now.
+std::string QueueText(const service_status_t& status) {
+  const std::int64_t waiting = SumOfCounters(status, ".queued");
+  return waiting < 0 ? "" : std::to_string(waiting);
+}
+
+std::string OverloadText(const PipelineWatch& watch) {
+  const auto optimizer = watch.services().find("window_optimizer");
+  if (optimizer == watch.services().end()) return "not known";
+  const std::int64_t level = SumOfCounters(optimizer->second.status, "overload.level");
+  return level <= 0 ? "none" : "level " + std::to_string(level) + " of 4";
+}
+
 Line ServiceLine(const PipelineWatch::Service& service, const procman_lcm::cmd_status_t* process) {
   const service_status_t& s = service.status;
   const double age_s = 1e-6 * static_cast<double>(HostTime() - service.heard);
   const bool silent = age_s > kSilentS;
   const bool bad = silent || s.state == "failed" || s.state == "degraded";
-  std::string load = "                 ";
+  std::string load = "                        ";
   if (process != nullptr && process->pid != 0) {
-    load = Format("%5.0f %% %6.0f MB", 100.0 * static_cast<double>(process->cpu_usage),
-                  static_cast<double>(process->mem_rss_bytes) / (1 << 20));
+    load = Format("%5.0f %% %6.0f MB %6s", 100.0 * static_cast<double>(process->cpu_usage),
+                  static_cast<double>(process->mem_rss_bytes) / (1 << 20), QueueText(s).c_str());
   }
   const std::string state = silent ? Format("silent %.0f s", age_s) : Printable(s.state);
   return {bad ? kBad : kPlain, Format("%-18s %-12s %s  ", Printable(s.service).substr(0, 40).c_str(),
@@ -91,12 +115,14 @@ std::string TopScreen::Draw(int columns, int rows, bool color) const {
                                   std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))});
   const auto& c = window_.covariance;
   const std::string latency = latency_ms_ < 0 ? "not in real time" : Format("%.0f ms", latency_ms_);
-  lines.push_back(
-      {kPlain, Format("sigma %5.1f mm   points %d, %.0f %% on edges   solve %.1f ms   latency %s",
-                      1e3 * std::sqrt(std::max(0.0, c[0][0] + c[1][1] + c[2][2])), window_.n_points,
-                      100 * window_.inlier_share, window_.solve_ms, latency.c_str())});
+  lines.push_back({kPlain, Format("sigma %5.1f mm, %.2f deg   points %d, %.0f %% on edges",
+                                  1e3 * std::sqrt(std::max(0.0, c[0][0] + c[1][1] + c[2][2])),
+                                  kDegrees * std::sqrt(std::max(0.0, c[3][3] + c[4][4] + c[5][5])),
+                                  window_.n_points, 100 * window_.inlier_share)});
+  lines.push_back({kPlain, Format("solve %5.1f ms   latency %s   overload %s", window_.solve_ms,
+                                  latency.c_str(), OverloadText(*watch_).c_str())});
   lines.push_back({kPlain, ""});
-  lines.push_back({kDim, "SERVICE            STATE            CPU    MEMORY"});
+  lines.push_back({kDim, "SERVICE            STATE            CPU    MEMORY  QUEUE"});
   for (const auto& [name, service] : watch_->services()) {
     lines.push_back(ServiceLine(service, ProcessOf(*sheriff_, name)));
   }

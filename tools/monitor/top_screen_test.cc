@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <vector>
 
 #include "common/bus/memory_bus.h"
 #include "tests/helpers/bus_messages.h"
@@ -44,8 +45,24 @@ TEST_F(TopScreenTest, ShowsModePoseServicesAndChannels) {
   status.state = "running";
   status.detail = "24060 points";
   Send(channels_.status, status);
+  status.service = "window_optimizer";
+  status.n_counters = 2;
+  status.counter_name = {"overload.level", "KEYFRAME.queued"};
+  status.counter_value = {2, 3};
+  Send(channels_.status, status);
+  procman_lcm::deputy_info_t info{};
+  info.deputy_id = "host";
+  info.ncmds = 1;
+  info.cmds.resize(1);
+  info.cmds[0].cmd.command_id = "window_optimizer";
+  info.cmds[0].pid = 17;
+  const std::vector<std::uint8_t> bytes = procman::EncodeProcman(info);
+  bus_->Publish(procman::kPmInfo, bytes.data(), bytes.size());
+  bus_->Poll(0);
   const std::string text = screen_.Draw(100, 24, false);
   EXPECT_THAT(text, HasSubstr("LOST  coasted too long"));
+  EXPECT_THAT(text, HasSubstr("overload level 2 of 4"));
+  EXPECT_THAT(text, HasSubstr("0 %      0 MB      3  "));
   EXPECT_THAT(text, HasSubstr("0.25    0.50    0.75 m"));
   EXPECT_THAT(text, HasSubstr("speed  1.50 m/s"));
   EXPECT_THAT(text, HasSubstr("24060 points"));

@@ -55,8 +55,6 @@ export interface Mode {
   type: "mode";
   mode: "bootstrapping" | "tracking" | "lost";
   reason: string;
-  image_speed: number;
-  keyframe_stride: number;
 }
 
 export interface Answer {
