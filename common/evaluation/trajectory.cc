@@ -25,7 +25,8 @@ struct Row {
   std::int64_t line;
 };
 
-// Rows that are not finite, as of a tracker that saw its target no more, are left out and counted.
+// Rows that are not finite, or whose quaternion is zero, as of a tracker that saw its target no more, are
+// left out and counted.
 std::vector<Row> ReadRows(const std::string& path, TumSkipped* skipped) {
   const TableSample sample = SampleTable(path, kLayout);
   const PoseColumns columns = PoseColumnsOf(sample);
@@ -36,7 +37,7 @@ std::vector<Row> ReadRows(const std::string& path, TumSkipped* skipped) {
     const PoseRow row = ReadPoseRow(columns, unit, &table);
     const Eigen::Map<const Eigen::Vector3d> p(row.position.data());
     const Eigen::Map<const Eigen::Quaterniond> q(row.orientation.data());
-    if (!row.timed || !p.allFinite() || !q.coeffs().allFinite()) {
+    if (!row.timed || !p.allFinite() || !q.coeffs().allFinite() || q.coeffs().isZero(0)) {
       if (skipped->rows++ == 0) skipped->first_line = table.line();
       continue;
     }
@@ -52,7 +53,8 @@ std::string TumSkipped::Text(const std::string& path) const {
   if (rows == 0) return "";
   return path + ": " + std::to_string(rows) + (rows == 1 ? " row" : " rows") +
          " skipped, the first in line " + std::to_string(first_line) +
-         ": a number is not finite, or the time does not increase or lies far ahead of those that follow";
+         ": a number is not finite, the quaternion is zero, or the time does not increase or lies far ahead "
+         "of those that follow";
 }
 
 Trajectory ReadTum(const std::string& path, TumSkipped* skipped) {
@@ -61,8 +63,9 @@ Trajectory ReadTum(const std::string& path, TumSkipped* skipped) {
   const auto fail = [&](const std::string& what) {
     throw std::runtime_error(path + ":" + std::to_string(out.first_line) + ": " + what);
   };
-  if (out.rows > 0 && skipped == nullptr) fail("expected finite numbers: \"" + std::string(kLayout) + "\"");
-  if (rows.empty()) throw std::runtime_error(path + ": contains no pose");
+  if (out.rows > 0 && skipped == nullptr)
+    fail("expected finite numbers and a quaternion: \"" + std::string(kLayout) + "\"");
+  if (rows.empty()) throw std::runtime_error(out.rows > 0 ? out.Text(path) : path + ": contains no pose");
   TimeOrderOptions in_order;
   in_order.strict = true;
   in_order.window = 0;  // a row out of order has no place

@@ -71,11 +71,11 @@ TEST_F(TumFile, RepeatedAndBackwardStampsAreNamedAndSkipped) {
 }
 
 TEST_F(TumFile, RowsThatAreNotFiniteAreSkippedAndTold) {
-  std::ofstream(path_)
-      << "1 0 0 0 0 0 0 1\n2 nan nan nan 0 0 0 1\n3 0 0 0 nan nan nan nan\n4 0 0 0 0 0 0 1\n";
+  std::ofstream(path_) << "1 0 0 0 0 0 0 1\n2 nan nan nan 0 0 0 1\n3 0 0 0 nan nan nan nan\n4 0 0 0 0 0 0 1\n"
+                       << "5 0 0 0 0 0 0 0\n";
   TumSkipped skipped;
   EXPECT_EQ(ReadTum(path_, &skipped).size(), 2U);
-  EXPECT_EQ(skipped.rows, 2);
+  EXPECT_EQ(skipped.rows, 3);
   EXPECT_EQ(skipped.first_line, 2);
 }
 
@@ -100,7 +100,8 @@ TEST_F(TumFile, ComplaintsNameFileLineAndFault) {
   };
   expect("1 0 0 0 0 0 0 1\n2 0 0 0\n", ":2", "ends too early");
   expect("1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n", ":2", "does not increase");
-  expect("1 0 0 0 0 0 0 0\n", ":1", "not of length 1");
+  expect("1 0 0 0 0 0 0 0.5\n", ":1", "not of length 1");
+  expect("1 0 0 0 0 0 0 0\n", ":1", "and a quaternion");
   expect("#\n1s 0 0 0 0 0 0 1\n", ":2", "not a time");
   expect("1 0 0 x 0 0 0 1\n", ":1", "not a number");
   expect("1 0 0 nan 0 0 0 1\n", ":1", "expected finite numbers");
