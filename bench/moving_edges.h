@@ -18,6 +18,7 @@ inline EventArray MovingEdges(std::size_t n, double rate, unsigned seed = 1) {
     int top, length;
   };
   std::vector<Edge> edges;
+  edges.reserve(kEdges);
   for (int k = 0; k < kEdges; ++k) {
     edges.push_back({kWidth * uniform(random), uniform(random) - 0.5F, 600 * (uniform(random) - 0.5F),
                      static_cast<int>(300 * uniform(random)), 60 + static_cast<int>(120 * uniform(random))});

@@ -38,7 +38,8 @@ std::optional<Utime> KeyframePolicy::Due(const Situation& s) const {
   // way.
   const double interval =
       s.stride * static_cast<double>(std::min({s.useful_interval, relaxed_interval_, max_interval_}));
-  const bool useful = static_cast<double>(waited + (s.imu - s.imu_before) / 2) >= interval;
+  const bool useful =
+      static_cast<double>(waited) + 0.5 * static_cast<double>(s.imu - s.imu_before) >= interval;
   const bool enough = useful && static_cast<double>(s.n_events) >= s.stride * static_cast<double>(n_event_) &&
                       s.n_imu >= s.stride * n_imu_;
   // A keyframe comes at last without events too: the IMU continues, and with it what is known of the state.

@@ -70,7 +70,7 @@ VisibilityQuery Tracker::QueryAfter(const KeyframeInput& keyframe) const { retur
 // is a reserve for what motion brings; the points then do until the view is as far on the other side.
 VisibilityQuery Tracker::QueryBeyond(const KeyframeInput& keyframe) const {
   constexpr double kLongest = 0.1;  // s: farther, a prediction is a guess
-  const VisibilityQuery next = QueryAfter(keyframe);
+  VisibilityQuery next = QueryAfter(keyframe);
   if (mode_ != TrackerMode::kTracking || !(image_speed_ > 0)) return next;
   const VisibilityQuery beyond =
       QueryAfter(keyframe, std::min(PointSelector::kLeadShare * next.margin_px / image_speed_, kLongest));
