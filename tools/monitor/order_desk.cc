@@ -17,6 +17,20 @@ std::optional<std::int64_t> Counter(const service_status_t& status, const char* 
   return status.counter_value[static_cast<std::size_t>(found - status.counter_name.begin())];
 }
 
+// A service that was heard once and is silent now takes no orders. One that was never heard may have no
+// STATUS.
+void RefuseIfSilent(const PipelineWatch& watch, const std::string& name) {
+  constexpr double kSilentS = 5;  // they send STATUS once a second
+  const auto service = watch.services().find(name);
+  if (service == watch.services().end()) return;
+  const double silence = 1e-6 * static_cast<double>(HostTime() - service->second.heard);
+  if (silence < kSilentS) return;
+  char text[160];
+  std::snprintf(text, sizeof text, "%s has not been heard for %.0f s: nobody takes this order", name.c_str(),
+                silence);
+  throw std::runtime_error(text);
+}
+
 }  // namespace
 
 OrderDesk::OrderDesk(Bus* bus, const Channels& channels, const PipelineWatch* watch,
@@ -30,6 +44,7 @@ void OrderDesk::Control(std::int8_t command, std::int64_t seek_utime, double spe
   if (watch_->services().count("log_replay") == 0) {
     throw std::runtime_error("no log_replay has been heard: data come from elsewhere");
   }
+  RefuseIfSilent(*watch_, "log_replay");
   replay_control_t order{};
   order.utime = HostTime();
   order.command = command;
@@ -76,6 +91,7 @@ std::string OrderDesk::Give(const PageOrder& order) {
     case PageOrder::Kind::kHint:
       break;
   }
+  RefuseIfSilent(*watch_, "window_optimizer");
   body_pose_t hint{};
   hint.utime = HostTime();
   PutPose(order.T_map_body, &hint);

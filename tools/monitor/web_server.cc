@@ -154,6 +154,7 @@ int WebServer::Implementation::Callback(lws* wsi, lws_callback_reasons reason, v
   auto* const self = context == nullptr ? nullptr : static_cast<Implementation*>(lws_context_user(context));
   auto* const session = static_cast<Session*>(user);
   const std::string_view text(static_cast<const char*>(in), in == nullptr ? 0 : size);
+  if (self == nullptr) return lws_callback_http_dummy(wsi, reason, user, in, size);  // not set up yet
   switch (reason) {
     case LWS_CALLBACK_HTTP:
       return self->OnRequest(wsi, session, text);

@@ -1,6 +1,7 @@
 import type { Order } from "./connection";
 import { element, setText } from "./dom";
 import { placeOf } from "./headline";
+import { isSilent } from "./services_view";
 import type { Status } from "./status";
 
 const HOLD_MS = 1500; // after an order, until STATUS has caught up
@@ -35,7 +36,7 @@ export class ReplayBar {
 
   show(status: Status): void {
     const replay = status.services.find((service) => service.name === "log_replay");
-    const usable = !!replay && !status.read_only;
+    const usable = !!replay && !status.read_only && !isSilent(replay);
     element("replay").hidden = !replay;
     for (const control of [this.slider, this.button, this.speed]) control.disabled = !usable;
     if (!replay) return;
