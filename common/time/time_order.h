@@ -68,7 +68,9 @@ class TimeOrder {
                                [&](const Item& next) { return earlier(next.t); }) >
              static_cast<std::ptrdiff_t>(ahead_.size());
     };
-    if (most([&](Utime next) { return next < t - options_.window; })) return true;
+    // What is too late itself says nothing of t.
+    const Utime oldest = begun_ ? newest_ - options_.window : std::numeric_limits<Utime>::min();
+    if (most([&](Utime next) { return next >= oldest && next < t - options_.window; })) return true;
     return !begun_ && most([&](Utime next) { return next > t + options_.hole; });
   }
 

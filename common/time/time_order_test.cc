@@ -55,6 +55,21 @@ TEST(TimeOrder, StraysAtTheEndAndZerosAtTheBeginAreDropped) {
   EXPECT_EQ(counts.outlier, 3);
 }
 
+// An old row after the last one, as of two files appended: the last good one must not go with it.
+TEST(TimeOrder, WhatIsTooLateCostsItselfOnly) {
+  for (const Utime window : {0, 50'000}) {
+    std::vector<Item> items = Regular(100, 60'000);
+    items.push_back({510'000, 100});
+    TimeOrderOptions options;
+    options.window = window;
+    options.strict = true;
+    TimeOrderCounts counts;
+    EXPECT_EQ(InTimeOrder(items, options, &counts).size(), 100U) << window;
+    EXPECT_EQ(counts.late, 1) << window;
+    EXPECT_EQ(counts.outlier, 0) << window;
+  }
+}
+
 TEST(TimeOrder, GapsAreNoOutliers) {
   std::vector<Item> items = Regular(1000, 500);
   for (int k = 300; k < 1000; ++k) items[k].t += 10'000'000;

@@ -44,7 +44,7 @@ Player::Player(const RunJob& job, const RunInputs& inputs, const Parts& parts)
 
 std::string Player::Play(const StopSignals& signals) {
   for (int loop = 1;; ++loop) {
-    const std::string ended = WaitForEnd(signals);
+    std::string ended = WaitForEnd(signals);
     if (job_.play.loops > 1) PrintLoop(loop);
     if (ended != "finished" || loop >= job_.play.loops) return ended;
     PlayAgain();
