@@ -116,7 +116,8 @@ void KeyframeBuilder::Push(Utime stamp, const ImuSample& sample, const TrackerFe
   k.high_rate = policy_.IsHighRate(feedback.mode);
   pending.position = merger_.PositionAfter(stamp);
   k.n_events = pending.position - last_position_;
-  k.decay_us = policy_.DecayUs(feedback.image_speed);
+  const auto since = static_cast<double>(stamp - interval_.begin());
+  k.decay_us = policy_.DecayUs(feedback.image_speed, since > 0 ? static_cast<double>(k.n_events) / since : 0);
   k.width = width_;
   k.height = height_;
   k.encoding = image_->encoding();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/events/surface_renderer.h"
+
 namespace evit {
 namespace {
 
@@ -22,6 +24,8 @@ KeyframePolicy::KeyframePolicy(const KeyframeOptions& keyframes, const SurfaceOp
       max_interval_(Micros(keyframes.max_interval_ms)),
       high_rate_interval_(Micros(keyframes.bootstrap_interval_ms)),
       fixed_interval_(keyframes.fixed_rate_hz > 0 ? Micros(1e3 / keyframes.fixed_rate_hz) : 0),
+      shown_decays_((surface.kind == SurfaceOptions::Kind::kSymmetric ? 2 : 1) *
+                    VisibleUs(1, surface.truncation)),
       tail_px_(surface.tail_px),
       min_decay_us_(surface.min_decay_ms * 1e3),
       max_decay_us_(surface.max_decay_ms * 1e3),
@@ -48,9 +52,11 @@ std::optional<Utime> KeyframePolicy::Due(const Situation& s) const {
   return std::nullopt;
 }
 
-double KeyframePolicy::DecayUs(double image_speed) const {
-  if (!(image_speed > 0)) return default_decay_us_;
-  return std::clamp(tail_px_ / image_speed * 1e6, min_decay_us_, max_decay_us_);
+double KeyframePolicy::DecayUs(double image_speed, double events_per_us) const {
+  const double tail = image_speed > 0 ? tail_px_ / image_speed * 1e6 : default_decay_us_;
+  const double enough =
+      events_per_us > 0 ? static_cast<double>(n_event_) / (events_per_us * shown_decays_) : 0;
+  return std::clamp(std::max(tail, enough), min_decay_us_, max_decay_us_);
 }
 
 }  // namespace evit

@@ -38,14 +38,17 @@ class KeyframePolicy {
     return !always_adaptive_ && mode != TrackerFeedback::Mode::kTracking;
   }
 
-  /// us: the time an edge takes for `tail_px`, within the bounds of the settings.
-  double DecayUs(double image_speed) const;
+  /// us: the time an edge takes for `tail_px`, or in which a surface shows as many events as a keyframe asks
+  /// for at least (a few events, stamped coarsely, say nothing along a narrow tail), whichever is longer;
+  /// within the bounds of the settings. `events_per_us`: 0 where it is not known.
+  double DecayUs(double image_speed, double events_per_us) const;
 
  private:
   bool always_adaptive_;
   std::int64_t n_event_, min_events_;
   int n_imu_;
   Utime relaxed_interval_, max_interval_, high_rate_interval_, fixed_interval_;
+  double shown_decays_;  // a surface shows the events of so many decays, on both sides of its stamp together
   double tail_px_, min_decay_us_, max_decay_us_, default_decay_us_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/helpers/event_streams.h"
 
 namespace evit {
@@ -89,10 +91,24 @@ TEST_F(KeyframePolicyTest, NothingIsInterpolatedInsideAHoleOfTheImu) {
 }
 
 TEST_F(KeyframePolicyTest, DecayFollowsTheImageSpeed) {
-  EXPECT_DOUBLE_EQ(policy_.DecayUs(0), 8'000);        // unknown
-  EXPECT_DOUBLE_EQ(policy_.DecayUs(1e-9), 30'000);    // longest
-  EXPECT_DOUBLE_EQ(policy_.DecayUs(300), 10'000);     // 3 px
-  EXPECT_DOUBLE_EQ(policy_.DecayUs(100'000), 2'000);  // shortest
+  EXPECT_DOUBLE_EQ(policy_.DecayUs(0, 0), 8'000);        // unknown
+  EXPECT_DOUBLE_EQ(policy_.DecayUs(1e-9, 0), 30'000);    // longest
+  EXPECT_DOUBLE_EQ(policy_.DecayUs(300, 0), 10'000);     // 3 px
+  EXPECT_DOUBLE_EQ(policy_.DecayUs(100'000, 0), 2'000);  // shortest
+}
+
+TEST_F(KeyframePolicyTest, FewEventsLastLonger) {
+  // A surface shows the events of a keyframe, 1500, over both sides of its stamp.
+  SurfaceOptions surface = test::SmallOptions().surface;
+  surface.kind = SurfaceOptions::Kind::kSymmetric;
+  surface.truncation = 255 / std::exp(1);  // to where an event has decayed by e
+  const KeyframePolicy policy(test::SmallOptions().keyframes, surface);
+  EXPECT_NEAR(policy.DecayUs(300, 0.05), 15'000, 1);
+  EXPECT_DOUBLE_EQ(policy.DecayUs(300, 1), 10'000);      // more than enough along the tail
+  EXPECT_DOUBLE_EQ(policy.DecayUs(300, 0.001), 30'000);  // longest
+  EXPECT_NEAR(policy.DecayUs(0, 0.05), 15'000, 1);       // speed unknown
+  surface.kind = SurfaceOptions::Kind::kCausal;
+  EXPECT_NEAR(KeyframePolicy(test::SmallOptions().keyframes, surface).DecayUs(300, 0.1), 15'000, 1);
 }
 
 }  // namespace

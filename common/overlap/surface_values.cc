@@ -55,7 +55,7 @@ void SurfaceMeter::Draw() {
   surface_.Update(pending_.t.data(), pending_.x.data(), pending_.y.data(), pending_.p.data(), n);
   DropFirst(n, &pending_);
   const SurfaceRenderer::Image image = renderer_.Render(
-      surface_, {t, policy_.DecayUs(view.speed_px), &pending_, 0, until(t + lookahead_), nullptr});
+      surface_, {t, policy_.DecayUs(view.speed_px, 0), &pending_, 0, until(t + lookahead_), nullptr});
   const SE3 T_camera_map = (view.T_map_body * rig_.T_body_camera).Inverse();
   for (const Eigen::Vector3f& p : view.points) {
     Eigen::Vector2d pixel;
