@@ -11,6 +11,11 @@
 #include "common/tracking/gates.h"
 
 namespace evit {
+namespace {
+
+constexpr StartRange kRivalRange{0.1, 0.09, 4};  // as far as a start may be wrong
+
+}  // namespace
 
 WindowTracker::WindowTracker(const Rig& rig, const TrackerOptions& options,
                              const AlignmentSettings& alignment, const PointSelector* points)
@@ -26,6 +31,7 @@ void WindowTracker::Start(std::deque<WindowNode> nodes, const StatePrior& prior)
   window_.Solve();
   aligned_at_ = started_at_ = window_.nodes().back().t;
   mean_significance_ = n_significances_ = 0;
+  rivals_.Start(aligned_at_);
   SetUncertainty(window_.nodes().back());
 }
 
@@ -49,6 +55,7 @@ void WindowTracker::Start(Utime t, const BodyState& state, const Matrix15d& info
   WindowNode node;
   node.t = aligned_at_ = t;
   started_at_ = 0;
+  rivals_.Start(t);
   node.state = state;
   // What its surface said is in the information already.
   const cv::Mat nothing(rig_.camera.height, rig_.camera.width, CV_8UC1, cv::Scalar(255));
@@ -117,10 +124,14 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
   }
   ReportUncertainty(rate, out);
 
+  const std::optional<SE3> rival = keyframe.n_events >= options_.min_events
+                                       ? Rival(keyframe, rate, !result.coasting.empty())
+                                       : std::nullopt;
   const std::string impossible = WhyImplausible(newest.state, options_.failure);
   result.failure = !solve.usable         ? "the solver failed"
                    : !impossible.empty() ? impossible
                    : !wrong.empty()      ? wrong
+                   : rival               ? "another pose explains the events better"
                                          : WhyLost(result.coasting, out->covariance);
   result.restart = newest.state;
   if (!impossible.empty()) {
@@ -131,6 +142,9 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
     // Neither has its velocity been the body's.
     result.restart = BodyState();
     result.restart.T_map_body = newest.state.T_map_body;
+  } else if (rival) {
+    result.restart = BodyState();
+    result.restart.T_map_body = *rival;
   }
   return result;
 }
@@ -157,6 +171,19 @@ std::string WindowTracker::WhyFalseStart(Utime t, double significance) {
     return "";
   }
   return "the map lies on the events no better than at a false pose";
+}
+
+// The pose that should be tracked instead of the newest keyframe's, once it is sure.
+std::optional<SE3> WindowTracker::Rival(const KeyframeInput& keyframe, const Eigen::Vector3d& rate,
+                                        bool coasting) {
+  if (!rivals_.Due(keyframe.t, coasting)) return std::nullopt;
+  const AlignmentPoints points = points_->Select(state(), rate, points_->affordable(), keyframe.seq);
+  if (points.size() < kMinPoints) return std::nullopt;
+  const SurfaceField field(keyframe.surface, kRivalRange.levels);
+  const SE3& pose = state().T_map_body;
+  const StartRival rival = FindRival(alignment_, field, points, pose, kRivalRange, keyframe.seq);
+  return rivals_.Confirm(keyframe.t, pose, rival,
+                         AlignmentSignificance(alignment_, field, points, rival.T_map_body));
 }
 
 // Why coasting cannot continue; empty where it can.

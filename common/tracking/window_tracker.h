@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "common/tracking/keyframe_input.h"
 #include "common/tracking/point_selector.h"
 #include "common/tracking/pose_covariance.h"
+#include "common/tracking/rival_watch.h"
 #include "common/tracking/sliding_window.h"
 #include "common/tracking/tracker_options.h"
 #include "common/tracking/tracker_output.h"
@@ -57,6 +59,7 @@ class WindowTracker {
   std::string WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality,
                        double significance) const;
   std::string WhyFalseStart(Utime t, double significance);
+  std::optional<SE3> Rival(const KeyframeInput& keyframe, const Eigen::Vector3d& rate, bool coasting);
   std::string WhyLost(const std::string& coasting, const Matrix6d& covariance) const;
 
   Rig rig_;
@@ -65,6 +68,7 @@ class WindowTracker {
   const PointSelector* points_;
   SlidingWindow window_;
   PoseUncertainty uncertainty_;
+  RivalWatch rivals_;
   Utime started_at_ = 0;          // us: when bootstrapping ended; 0: resumed from a known state
   double mean_significance_ = 0;  // of the last ten keyframes or so that have events
   int n_significances_ = 0;       // averaged in mean_significance_
