@@ -8,10 +8,11 @@ namespace {
 constexpr Utime kProbation = 1'000'000;  // us
 constexpr Utime kClosely = 200'000;      // us between searches in it
 constexpr Utime kUsually = 2'000'000;    // us: a search takes as long as some keyframes
-constexpr Utime kCoasting = 50'000;     // us: the pose drifts away, the right one may be near
+constexpr Utime kCoasting = 50'000;      // us: the pose drifts away, the right one may be near
 constexpr int kConfirmations = 3;        // keyframes
 // By how much a rival must win. In 1,050 keyframes with the right pose, most of them fast, ten rivals did so;
-// none was found again in the next keyframe. At false poses 95 % of the searches find the right one, by 6 to 8.
+// none was found again in the next keyframe. At false poses 95 % of the searches find the right one, by 6
+// to 8.
 constexpr double kWins = 3;
 constexpr double kSamePlace = 0.05;  // m, rad
 

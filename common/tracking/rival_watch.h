@@ -23,12 +23,13 @@ class RivalWatch {
   /// What the search (FindRival) at a keyframe with pose `T_map_body` found, `rival_significance` being the
   /// rival's own (AlignmentSignificance). The rival's pose once several keyframes in a row have shown it, at
   /// the same place seen from the body.
-  std::optional<SE3> Confirm(Utime t, const SE3& T_map_body, const StartRival& rival, double rival_significance);
+  std::optional<SE3> Confirm(Utime t, const SE3& T_map_body, const StartRival& rival,
+                             double rival_significance);
 
  private:
   Utime started_at_ = 0;  // us
   Utime searched_at_ = 0;
-  SE3 T_body_rival_;      // of the last rival
+  SE3 T_body_rival_;       // of the last rival
   int confirmations_ = 0;  // keyframes in a row that have shown it
 };
 

@@ -36,7 +36,7 @@ TEST_F(RivalWatchTest, ARivalThatWinsThreeTimesInOnePlaceIsTheRightPose) {
 TEST_F(RivalWatchTest, ChanceIsNot) {
   for (int k = 0; k < 9; ++k) EXPECT_FALSE(Show(6, k % 2 == 0 ? 0.1 : 0.3));  // here and there
   for (int k = 0; k < 9; ++k) EXPECT_FALSE(Show(k % 3 == 0 ? 1 : 6));         // now and then
-  for (int k = 0; k < 9; ++k) EXPECT_FALSE(Show(6, 0.1, 4));                   // both explain nothing
+  for (int k = 0; k < 9; ++k) EXPECT_FALSE(Show(6, 0.1, 4));                  // both explain nothing
 }
 
 TEST_F(RivalWatchTest, SearchesOftenAtFirstAndWhileInDoubt) {
