@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <opencv2/imgproc.hpp>
 
 #include "tests/helpers/painted_pictures.h"
 #include "tests/helpers/ros_bags.h"
@@ -14,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 class MapInputsTest : public testing::Test {
  protected:
@@ -202,7 +202,80 @@ TEST_F(MapInputsTest, TwoCamerasOnABody) {
   ExpectGoodMap(Build(left + " --images " + File("right") + " --camera " + File("right.textproto")), 0.01);
   ExpectRefused(Build(left), "depth needs a baseline");
   ExpectRefused(Build(left + " --images " + File("right")), "--camera 1 files: one for each");
-  WriteCamera("right.textproto", SE3());
+}
+
+// Poses of the body where the camera's are expected: the clock fits, the frame does not.
+TEST_F(MapInputsTest, PosesOfAnotherFrameOrClockAreNamed) {
+  for (std::size_t k = 0; k < painted_->pictures.size(); ++k)
+    Write("grey/" + StampName(painted_->poses[k].t), PaintedPictures::Png(painted_->pictures[k]));
+  const std::string grey = "--images " + File("grey") + Calibrated();
+  Trajectory body, late;
+  for (const StampedPose& pose : Dense(SE3(ExpSO3({1.2, -1.2, 1.2}), {0.1, 0, 0.05}))) body.push_back(pose);
+  WriteTum(File("poses.tum"), body);
+  ExpectRefused(Build(grey), "another clock, order or frame");
+  // Half a second late within the recording: some pictures have a pose, a wrong one.
+  for (const StampedPose& pose : Dense({})) late.push_back({pose.t + 500'000, pose.pose});
+  WriteTum(File("poses.tum"), late);
+  const ProgramOutcome outcome = Build(grey);
+  EXPECT_THAT(outcome.output, HasSubstr("pictures have no pose"));
+  EXPECT_TRUE(outcome.code != 0 || outcome.output.find("warning:") != std::string::npos) << outcome.output;
+  // Nothing but what lies between two poses far apart.
+  WriteTum(File("poses.tum"), {body.front(), body.back()});
+  ExpectRefused(Build(grey), "have a pose, a map needs three");
+}
+
+TEST_F(MapInputsTest, BlurredDarkAndCoveredPicturesAreLeftOut) {
+  for (std::size_t k = 0; k < painted_->pictures.size(); ++k) {
+    cv::Mat picture = painted_->pictures[k].clone();
+    if (k == 2) cv::blur(picture, picture, {41, 41});
+    if (k == 5) picture *= 0.02;
+    if (k == 9) picture.setTo(3);
+    Write("grey/" + StampName(painted_->poses[k].t), PaintedPictures::Png(picture));
+  }
+  const ProgramOutcome outcome = Build("--images " + File("grey") + Calibrated());
+  ExpectGoodMap(outcome);
+  EXPECT_THAT(outcome.output, HasSubstr("3 of 16 pictures show few edges (blurred, dark, covered"));
+}
+
+TEST_F(MapInputsTest, NoTextureAndTooFewViewsAreNamed) {
+  cv::RNG noise(1);
+  for (std::size_t k = 0; k < painted_->pictures.size(); ++k) {
+    cv::Mat wall(150, 200, CV_8U);
+    noise.fill(wall, cv::RNG::NORMAL, 120, 3);
+    Write("wall/" + StampName(painted_->poses[k].t), PaintedPictures::Png(wall));
+    if (k < 2) Write("two/" + StampName(painted_->poses[k].t), PaintedPictures::Png(painted_->pictures[k]));
+  }
+  ExpectRefused(Build("--images " + File("wall") + Calibrated()), "there is no texture");
+  ExpectRefused(Build("--images " + File("two") + Calibrated()), "a map needs three");
+}
+
+// Another lens: depths that agree are few, or off.
+TEST_F(MapInputsTest, WrongIntrinsicsAreWarnedOf) {
+  for (std::size_t k = 0; k < painted_->pictures.size(); ++k)
+    Write("grey/" + StampName(painted_->poses[k].t), PaintedPictures::Png(painted_->pictures[k]));
+  MountedCamera other;
+  other.camera = painted_->camera;
+  other.camera.fx = other.camera.fy = 220;
+  other.camera.cx = 70;
+  WriteMountedCamera(File("camera.textproto"), other, "test");
+  const ProgramOutcome outcome = Build("--images " + File("grey") + Calibrated());
+  EXPECT_TRUE(outcome.code != 0 || outcome.output.find("warning:") != std::string::npos) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("calibration"));
+  // Of another size: refused before anything is read.
+  other.camera.width = 640;
+  WriteMountedCamera(File("camera.textproto"), other, "test");
+  ExpectRefused(Build("--images " + File("grey") + Calibrated()), "the camera file says 640x150");
+}
+
+// A full disk, a folder that may not be written: no half map.
+TEST_F(MapInputsTest, WhatCannotBeWrittenLeavesNothing) {
+  for (std::size_t k = 0; k < painted_->pictures.size(); ++k)
+    Write("grey/" + StampName(painted_->poses[k].t), PaintedPictures::Png(painted_->pictures[k]));
+  fs::create_directories(File("map.pcd.part"));
+  const ProgramOutcome outcome = Build("--images " + File("grey") + Calibrated());
+  EXPECT_NE(outcome.code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("map.pcd"));
+  EXPECT_FALSE(fs::exists(File("map.pcd")));
 }
 
 }  // namespace

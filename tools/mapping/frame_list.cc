@@ -97,10 +97,12 @@ FrameList ListFrames(const formats::FrameSource& source, const std::string& path
       ++list.without_pose;
     }
   }
-  if (list.frames.empty()) {
-    throw std::runtime_error(
-        poses_path + ": the poses are " + std::to_string(list.pose_interval / 1000) +
-        " ms apart; between them no picture's can be interpolated (over 200 ms at most)");
+  if (list.frames.size() < 3) {
+    throw std::runtime_error(poses_path + ": only " + std::to_string(list.frames.size()) + " of " +
+                             std::to_string(n) + " pictures of " + path +
+                             " have a pose, a map needs three; poses are of " + Span(begin, end) + ", " +
+                             std::to_string(list.pose_interval / 1000) +
+                             " ms apart (over more than 200 ms none is interpolated)");
   }
   std::stable_sort(list.frames.begin(), list.frames.end(),
                    [](const Frame& a, const Frame& b) { return a.t < b.t; });
