@@ -16,7 +16,7 @@ struct EdgeAdjustmentOptions {
   double edge_sigma_px = 0.35;
   double lag_sigma_px = 0.4;                           // of a point's lag in event views
   double first_radius_px = 2.5, last_radius_px = 1.5;  // within which a point's edge is looked for
-  double min_share = 0.4;                              // of the views that should show a point
+  double min_share = 0.25;                             // of the views that should show a point
   int min_views = 5;                                   // that show it
   // Moving a point from where it was costs as much as so many of its sigmas: what a line knows of its depth
   // from neighbours along it is not lost. 0: costs nothing.

@@ -9,7 +9,7 @@ namespace evit {
 struct EdgeStereoOptions {
   double min_depth_m = 0.2, max_depth_m = 10;
   int min_views = 4;             // that agree on a depth
-  double min_share = 0.5;        // of the views that should show it
+  double min_share = 0.35;       // of the views that should show it: more is hidden than one knows
   double max_rival_share = 0.8;  // another depth with as much of the best one's support makes it ambiguous
   double edge_sigma_px = 0.35;   // of an edge's place in one image, poses' errors included
   double max_relative_sigma = 0.06;  // of the depth; more is no measurement

@@ -178,6 +178,10 @@ BuiltMap BuildMap(std::vector<PosedEdges> views, const MapBuilderOptions& option
       progress(0.05 + 0.6 * ++done / static_cast<double>(keys.size()), "depth of edges");
     });
   }
+  for (const int key : keys) {
+    map.tried +=
+        views[key].edges.edges().size() / static_cast<std::size_t>(StrideOf(views[key], kEdgesPerKey));
+  }
   Finish(std::move(views), depths, options, progress, &map);
   return map;
 }

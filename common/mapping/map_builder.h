@@ -29,6 +29,7 @@ struct BuiltMap {
   double typical_depth_m = 0;
   double event_lag_px = 0;  // that was put right before
   int key_views = 0;
+  std::size_t tried = 0;      // edges of key views whose depth was looked for; 0: a sensor or events told it
   std::size_t measured = 0;   // depths
   std::size_t confirmed = 0;  // of them, by other views
   AdjustmentSummary adjustment;

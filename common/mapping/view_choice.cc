@@ -38,6 +38,10 @@ std::vector<int> ChooseKeyViews(const std::vector<PosedEdges>& views, const View
     });
     if (!near) keys.push_back(k);
   }
+  const std::size_t all = keys.size(), most = static_cast<std::size_t>(std::max(1, options.max_keys));
+  if (all <= most) return keys;
+  for (std::size_t k = 0; k < most; ++k) keys[k] = keys[k * all / most];
+  keys.resize(most);
   return keys;
 }
 

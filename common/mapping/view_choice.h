@@ -9,13 +9,14 @@ namespace evit {
 struct ViewChoiceOptions {
   double key_distance_m = 0.02;  // from one key view to the next, or
   double key_angle_deg = 4;
+  int max_keys = 160;             // of more, evenly many: each asks all others
   double min_parallax_deg = 0.4;  // of a neighbour: less says nothing about depth,
-  double max_parallax_deg = 10;   // more and an edge looks different, or is another one
+  double max_parallax_deg = 20;   // more and an edge looks different, or is another one
   double min_overlap = 0.5;       // share of the picture that a neighbour also sees
   int neighbours = 14;
 };
 
-/// Views far enough from all key views before them, in their order.
+/// Views far enough from all key views before them, in their order; of too many every n-th.
 std::vector<int> ChooseKeyViews(const std::vector<PosedEdges>& views, const ViewChoiceOptions& options);
 
 /// The neighbours that view `key` is compared with, for a scene about `depth` m away: in sight of the same

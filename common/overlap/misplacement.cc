@@ -9,6 +9,7 @@ namespace {
 
 using Kind = Misplacement::Kind;
 
+constexpr double kLeastGain = 0.004;  // of the score, 0..1, that makes a correction one
 constexpr std::size_t kFewest = 300;  // points in view of all views together: by fewer nothing is told
 
 int Unknowns(Kind kind) {
@@ -126,6 +127,9 @@ class Fitter {
       value += Step(kind, value);
       offer(value);
     }
+    // Where a value is hardly better than none, any noise decides which one: then it is none.
+    const Fitness none = At(kind, Eigen::Vector3d::Zero());
+    if (best.score < none.score + kLeastGain) return {kind, Eigen::Vector3d::Zero(), none.share};
     return {kind, best_value, best.share};
   }
 

@@ -36,8 +36,8 @@ double PointShare(const Rig& rig, const Trajectory& body, const std::vector<MapV
                   const MisplacementOptions& options = {});
 
 /// For each kind by itself the best value, by least squares on the offsets of points to the nearest pixel
-/// that fired, from the best of a few starts. Errors of one kind partly look like another: compare the
-/// shares. `views`: with their events.
+/// that fired, from the best of a few starts; zero where none is clearly better. Errors of one kind partly
+/// look like another: compare the shares. `views`: with their events.
 std::vector<Misplacement> FindMisplacements(const Rig& rig, const Trajectory& body,
                                             const std::vector<MapView>& views,
                                             const MisplacementOptions& options = {});

@@ -1,23 +1,26 @@
 #include "tools/mapping/map_edit.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "common/evaluation/trajectory.h"
 #include "common/map/map_file.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
 #include "tools/mapping/build_report.h"
+#include "tools/mapping/gravity_direction.h"
 
 namespace evit::commands {
 namespace {
 
 struct MapEdit {
   std::vector<std::string> in;
-  std::string out, box, transform;
+  std::string out, box, transform, upright, truth, truth_out;
   double scale = 1, voxel = 0.004;
   bool outside = false;
 };
@@ -36,6 +39,24 @@ std::shared_ptr<MapEdit> AddFiles(CLI::App* command, bool several) {
       ->required()
       ->check(mapping::CannotWriteMap);
   return edit;
+}
+
+// Says how, so that other poses can follow.
+SE3 TurnUpright(const MapEdit& edit) {
+  Trajectory truth = ReadTum(edit.truth);
+  const SE3 T = mapping::UprightRotation(edit.upright, truth, edit.truth);
+  std::printf("turned by %.2f deg; for other poses: --T-map-world \"",
+              AngularDistance(T.q, {1, 0, 0, 0}) * 180 / M_PI);
+  for (int row = 0; row < 3; ++row)
+    std::printf("%.9f %.9f %.9f 0 ", T.R()(row, 0), T.R()(row, 1), T.R()(row, 2));
+  std::printf("0 0 0 1\"\n");
+  if (edit.truth_out.empty()) return T;
+  for (StampedPose& pose : truth) {
+    pose.pose = T * pose.pose;
+    pose.pose.p *= edit.scale;
+  }
+  WriteTum(edit.truth_out, truth);
+  return T;
 }
 
 }  // namespace
@@ -71,13 +92,23 @@ void AddMapEdits(CLI::App* map) {
   transform->add_option("--scale", t->scale, "Multiply coordinates, e.g. 0.001 for millimetres")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  CLI::Option* upright = transform->add_option(
+      "--upright", t->upright, "LCM log with IMU: turn the map so that z points up, by gravity and --truth");
+  CLI::Option* truth =
+      transform->add_option("--truth", t->truth, "TUM: the body's poses in the map, of that log");
+  upright->needs(truth);
+  truth->needs(upright);
+  upright->excludes("--transform");
+  transform->add_option("--truth-out", t->truth_out, "TUM file to write: those poses in the turned map")
+      ->needs(upright);
   transform->footer(
       "Example: evit map transform scan.pcd --transform \"0 -1 0 0 1 0 0 0 0 0 1 0.5 0 0 0 1\" --out "
       "turned.pcd");
   transform->callback([t] {
     PointMap moved = LoadMap(t->in.front()).map;
-    mapping::Transform(t->transform.empty() ? SE3() : ParseTransform("--transform", t->transform), t->scale,
-                       &moved);
+    SE3 T = t->transform.empty() ? SE3() : ParseTransform("--transform", t->transform);
+    if (!t->upright.empty()) T = TurnUpright(*t);
+    mapping::Transform(T, t->scale, &moved);
     WriteEdited(*t, moved);
   });
 }

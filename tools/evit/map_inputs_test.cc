@@ -212,7 +212,9 @@ TEST_F(MapInputsTest, PosesOfAnotherFrameOrClockAreNamed) {
   Trajectory body, late;
   for (const StampedPose& pose : Dense(SE3(ExpSO3({1.2, -1.2, 1.2}), {0.1, 0, 0.05}))) body.push_back(pose);
   WriteTum(File("poses.tum"), body);
-  ExpectRefused(Build(grey), "another clock, order or frame");
+  const ProgramOutcome askew = Build(grey);
+  EXPECT_TRUE(askew.code != 0 || askew.output.find("warning:") != std::string::npos) << askew.output;
+  EXPECT_THAT(askew.output, testing::ContainsRegex("clock(, order)? (or|and) frame"));
   // Half a second late within the recording: some pictures have a pose, a wrong one.
   for (const StampedPose& pose : Dense({})) late.push_back({pose.t + 500'000, pose.pose});
   WriteTum(File("poses.tum"), late);
@@ -227,8 +229,8 @@ TEST_F(MapInputsTest, PosesOfAnotherFrameOrClockAreNamed) {
 TEST_F(MapInputsTest, BlurredDarkAndCoveredPicturesAreLeftOut) {
   for (std::size_t k = 0; k < painted_->pictures.size(); ++k) {
     cv::Mat picture = painted_->pictures[k].clone();
-    if (k == 2) cv::blur(picture, picture, {41, 41});
-    if (k == 5) picture *= 0.02;
+    if (k == 2) cv::GaussianBlur(picture, picture, {}, 30);
+    if (k == 5) picture *= 0.005;
     if (k == 9) picture.setTo(3);
     Write("grey/" + StampName(painted_->poses[k].t), PaintedPictures::Png(picture));
   }
@@ -261,6 +263,7 @@ TEST_F(MapInputsTest, WrongIntrinsicsAreWarnedOf) {
   const ProgramOutcome outcome = Build("--images " + File("grey") + Calibrated());
   EXPECT_TRUE(outcome.code != 0 || outcome.output.find("warning:") != std::string::npos) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("calibration"));
+  EXPECT_THAT(outcome.output, testing::Not(HasSubstr("ms apart"))) << "each picture has a pose of its own";
   // Of another size: refused before anything is read.
   other.camera.width = 640;
   WriteMountedCamera(File("camera.textproto"), other, "test");

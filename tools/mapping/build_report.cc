@@ -40,7 +40,7 @@ std::vector<std::string> NotesOn(const FrameList& list, const ReadFrames& frames
         "k-th picture's");
   }
   constexpr Utime kFarApart = 60'000;  // us
-  if (list.by_stamp && list.pose_interval > kFarApart) {
+  if (10 * list.between_poses > list.frames.size() && list.pose_interval > kFarApart) {
     notes.push_back(
         "poses are " + std::to_string(list.pose_interval / 1000) +
         " ms apart: between them the motion is taken to be even, which a hand's is not; poses every "
@@ -58,7 +58,9 @@ std::vector<std::string> NotesOn(const FrameList& list, const ReadFrames& frames
 }
 
 std::string DoubtOf(const BuiltMap& built) {
-  char text[300] = "";
+  constexpr double kFewFound = 0.15, kMuchMoved = 0.005;  // of the edges tried; m
+  char text[400] = "";
+  const double found = built.tried > 0 ? static_cast<double>(built.measured) / built.tried : 1;
   const double confirmed = built.measured > 0 ? static_cast<double>(built.confirmed) / built.measured : 0;
   if (confirmed < 0.5) {
     std::snprintf(
@@ -66,6 +68,19 @@ std::string DoubtOf(const BuiltMap& built) {
         "only %.0f %% of the depths agree between views: poses of another recording, clock or frame, a "
         "calibration of another camera, or a scene that moves",
         100 * confirmed);
+  } else if (found < kFewFound) {
+    std::snprintf(text, sizeof text,
+                  "only %.0f %% of the edges are found in other views at one depth: poses of another "
+                  "recording, clock or "
+                  "frame (the camera's, not a body's?), a calibration of another camera, or a camera that "
+                  "hardly moved for "
+                  "how far things are",
+                  100 * found);
+  } else if (built.adjustment.moved_m > kMuchMoved) {
+    std::snprintf(text, sizeof text,
+                  "poses had to be moved by %.1f mm (median) for the views to fit each other: look at the "
+                  "calibration, and at the poses' clock and frame (the camera's, not a body's?)",
+                  1e3 * built.adjustment.moved_m);
   } else if (built.adjustment.rms_after_px > 0.5) {
     std::snprintf(text, sizeof text,
                   "points lie %.2f px off the edges they were made from: look at the calibration, and at the "

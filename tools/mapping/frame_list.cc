@@ -45,6 +45,13 @@ std::size_t CountWithin(const std::vector<Utime>& stamps, Utime begin, Utime end
       std::count_if(stamps.begin(), stamps.end(), [&](Utime t) { return t >= begin && t <= end; }));
 }
 
+// To within a millisecond.
+bool HasPoseAt(const Trajectory& poses, Utime t) {
+  const auto after = std::lower_bound(poses.begin(), poses.end(), t - 1'000,
+                                      [](const StampedPose& pose, Utime time) { return pose.t < time; });
+  return after != poses.end() && after->t <= t + 1'000;
+}
+
 }  // namespace
 
 std::optional<std::vector<Utime>> StampsOf(const formats::FrameSource& source, Utime begin, Utime end) {
@@ -92,17 +99,17 @@ FrameList ListFrames(const formats::FrameSource& source, const std::string& path
   for (std::size_t k = 0; k < n; ++k) {
     Frame frame{k, (*stamps)[k], {}};
     if (PoseAt(poses, frame.t, &frame.T_map_camera)) {
+      if (!HasPoseAt(poses, frame.t)) ++list.between_poses;
       list.frames.push_back(frame);
     } else {
       ++list.without_pose;
     }
   }
   if (list.frames.size() < 3) {
-    throw std::runtime_error(poses_path + ": only " + std::to_string(list.frames.size()) + " of " +
-                             std::to_string(n) + " pictures of " + path +
-                             " have a pose, a map needs three; poses are of " + Span(begin, end) + ", " +
-                             std::to_string(list.pose_interval / 1000) +
-                             " ms apart (over more than 200 ms none is interpolated)");
+    throw std::runtime_error(
+        poses_path + ": only " + std::to_string(list.frames.size()) + " of " + std::to_string(n) +
+        " pictures of " + path + " have a pose, a map needs three; poses are of " + Span(begin, end) + ", " +
+        std::to_string(list.pose_interval / 1000) + " ms apart (over more than 200 ms none is interpolated)");
   }
   std::stable_sort(list.frames.begin(), list.frames.end(),
                    [](const Frame& a, const Frame& b) { return a.t < b.t; });

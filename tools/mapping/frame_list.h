@@ -19,11 +19,12 @@ struct Frame {
 };
 
 struct FrameList {
-  std::vector<Frame> frames;     // in the order of the source, or of stamps
-  std::size_t without_pose = 0;  // left out: taken before, after or in a hole of the poses
-  bool by_stamp = false;         // false: one pose for each picture, in the order of names
-  bool stamps_ignored = false;   // there are stamps, but of another time than the poses
-  Utime pose_interval = 0;       // us, from one pose to the next (median)
+  std::vector<Frame> frames;      // in the order of the source, or of stamps
+  std::size_t without_pose = 0;   // left out: taken before, after or in a hole of the poses
+  bool by_stamp = false;          // false: one pose for each picture, in the order of names
+  bool stamps_ignored = false;    // there are stamps, but of another time than the poses
+  Utime pose_interval = 0;        // us, from one pose to the next (median)
+  std::size_t between_poses = 0;  // pictures whose poses are interpolated
 };
 
 /// The pictures of a source (OpenFrames(path)) with their poses. Where their stamps lie in the time of the

@@ -15,6 +15,7 @@
 #include "common/wire/event_wire.h"
 #include "common/wire/imu_wire.h"
 #include "tools/mapping/check_findings.h"
+#include "tools/mapping/gravity_direction.h"
 
 namespace evit::mapping {
 namespace {
@@ -22,7 +23,7 @@ namespace {
 // Reads the log once: events into the views, and where gravity points in the map.
 class LogPass {
  public:
-  LogPass(const Trajectory& truth, std::vector<MapView>* views) : truth_(truth), filler_(views) {}
+  LogPass(const Trajectory& truth, std::vector<MapView>* views) : gravity(truth), filler_(views) {}
 
   void Read(const LogReader& log, const std::function<void(double)>& progress) {
     std::vector<std::uint8_t> bytes;
@@ -44,20 +45,15 @@ class LogPass {
       } else if (EndsWith(channel, "IMU")) {
         log.Read(entries[k], &bytes);
         Take<imu_batch_t>(bytes, [&](const imu_batch_t& batch) {
-          for (const ImuSample& s : SamplesOf(batch)) {
-            SE3 pose;
-            if (!PoseAt(truth_, s.t, &pose)) continue;
-            up += pose.q * s.accel;
-            ++n_imu;
-          }
+          for (const ImuSample& s : SamplesOf(batch)) gravity.Add(s);
         });
       }
     }
   }
 
-  std::size_t n_events = 0, n_imu = 0;
+  std::size_t n_events = 0;
   Utime first = 0, last = 0;
-  Eigen::Vector3d up = Eigen::Vector3d::Zero();  // sum of specific force, map frame
+  GravityMean gravity;
 
  private:
   template <typename Message, typename Use>
@@ -66,7 +62,6 @@ class LogPass {
     if (DecodeChecked(bytes.data(), bytes.size(), &message)) use(message);
   }
 
-  const Trajectory& truth_;
   ViewFiller filler_;
 };
 
@@ -146,9 +141,8 @@ MapCheck CheckMap(const MapCheckInputs& inputs, const std::function<void(double)
   check.point_share = PointShare(rig, truth, check.views);
   check.fits = FindMisplacements(rig, truth, check.views);
   CountCells(index.map(), rig, &check);
-  check.has_imu = pass.n_imu > 100;
-  if (check.has_imu && pass.up.norm() > 0)
-    check.tilt_deg = std::acos(std::clamp(pass.up.normalized().z(), -1.0, 1.0)) * 180 / M_PI;
+  check.has_imu = pass.gravity.n() > 100;
+  check.tilt_deg = check.has_imu ? pass.gravity.TiltDegrees() : 0;
   check.findings = Findings(inputs, check);
   progress(1);
   return check;

@@ -61,6 +61,7 @@ MadeMap MakeFromEvents(const MapMaking& m) {
       options.typical_depth_m > 0 ? TakeOutLag(options.typical_depth_m, options, &frames.views) : 0;
   MadeMap made = Build(std::move(frames), options);
   made.built.event_lag_px = lag;
+  made.built.tried = 0;  // a view of events shows but the edges across its motion: few find each other
   return made;
 }
 

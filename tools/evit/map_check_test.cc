@@ -1,0 +1,102 @@
+// `evit map check` on a recording whose map, rig or poses are wrong in one way each: named, with the remedy.
+#include <gmock/gmock.h>
+
+#include <functional>
+
+#include "tests/helpers/painted_pictures.h"
+#include "tests/helpers/temporary_folder.h"
+
+namespace evit::commands {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class MapCheckTest : public testing::Test {
+ protected:
+  std::string File(const std::string& name) const { return folder_.File(name); }
+  static std::string Sample(const std::string& name) { return test::SourcePath("logs/" + name); }
+
+  // What is said where one of the inputs is another than the sample's.
+  std::string Check(const std::string& map, const std::string& rig, const std::string& truth) const {
+    const ProgramOutcome outcome = RunEvit("map check --log " + Sample("sample.lcmlog") + " --map " + map +
+                                           " --rig " + rig + " --truth " + truth);
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+    return outcome.output;
+  }
+  std::string CheckMap(const std::string& transform) const {
+    const ProgramOutcome made =
+        RunEvit("map " + transform + " " + Sample("sample_map.pcd") + " --out " + File("map.pcd"));
+    EXPECT_EQ(made.code, 0) << made.output;
+    return Check(File("map.pcd"), Sample("rig.textproto"), Sample("sample_truth.tum"));
+  }
+  std::string CheckRig(const std::function<void(Rig*)>& change) const {
+    Rig rig = LoadRig(Sample("rig.textproto"));
+    change(&rig);
+    WriteRig(File("rig.textproto"), rig, "wrong", "");
+    return Check(Sample("sample_map.pcd"), File("rig.textproto"), Sample("sample_truth.tum"));
+  }
+
+ private:
+  TemporaryFolder folder_{"map_check"};
+};
+
+TEST_F(MapCheckTest, SaysNothingWhereAllIsRight) {
+  const std::string text = Check(Sample("sample_map.pcd"), Sample("rig.textproto"), Sample("sample_truth.tum"));
+  EXPECT_THAT(text, AllOf(HasSubstr("nothing looks wrong"), Not(HasSubstr("finding:"))));
+  EXPECT_THAT(text, Not(HasSubstr(" ms late"))) << "an offset that changes nothing is none";
+}
+
+TEST_F(MapCheckTest, NamesAMapOfAnotherFrameOrScale) {
+  EXPECT_THAT(CheckMap("transform --transform '1 0 0 0.1 0 1 0 -0.06 0 0 1 0.05 0 0 0 1'"),
+              AllOf(HasSubstr("finding: poses shifted by"), HasSubstr("evit map transform --transform \"1 0 0 -0.0")));
+  EXPECT_THAT(CheckMap("transform --scale 1.05"),
+              AllOf(HasSubstr("too small for the map: corrected"), HasSubstr("evit map transform --scale 0.95")));
+  EXPECT_THAT(CheckMap("transform --transform '1 0 0 0 0 0 -1 0 0 1 0 0 0 0 0 1'"),
+              AllOf(HasSubstr("hardly anything to do with each other"), HasSubstr("is y up in the map")));
+}
+
+TEST_F(MapCheckTest, NamesAMapWithHoles) {
+  EXPECT_THAT(CheckMap("crop --box :,:,1.2:"), AllOf(HasSubstr("it has holes"), HasSubstr("evit map merge")));
+}
+
+TEST_F(MapCheckTest, NamesATimeOffsetAndWrongExtrinsicsAndIntrinsics) {
+  EXPECT_THAT(CheckRig([](Rig* rig) { rig->camera_time_offset += 30'000; }),
+              AllOf(HasSubstr("finding: events "), HasSubstr(" ms late: corrected"),
+                    HasSubstr("to camera.time_offset_us of")));
+  EXPECT_THAT(
+      CheckRig([](Rig* rig) { rig->T_body_camera.q = rig->T_body_camera.q * ExpSO3({0, 0.035, 0}); }),
+      AllOf(HasSubstr("finding: camera turned by 2.0"), HasSubstr("evit calibrate finds it")));
+  EXPECT_THAT(CheckRig([](Rig* rig) { rig->camera.fx = rig->camera.fy = 175; }),
+              AllOf(HasSubstr("finding: focal length 6."), HasSubstr("fx and fy of")));
+}
+
+// Map and poses lie alike, and both askew: only gravity tells, and the command that is named mends it.
+TEST_F(MapCheckTest, NamesAMapThatIsNotUprightAndMendsIt) {
+  const SE3 askew(ExpSO3({0.14, 0.05, 0}), Eigen::Vector3d::Zero());
+  PointMap map = LoadMap(Sample("sample_map.pcd")).map;
+  for (Eigen::Vector3f& p : map.points) p = (askew * p.cast<double>()).cast<float>();
+  WriteMap(File("askew.pcd"), map);
+  Trajectory truth = ReadTum(Sample("sample_truth.tum"));
+  for (StampedPose& pose : truth) pose.pose = askew * pose.pose;
+  WriteTum(File("askew.tum"), truth);
+  const std::string log = Sample("sample.lcmlog");
+  EXPECT_THAT(Check(File("askew.pcd"), Sample("rig.textproto"), File("askew.tum")),
+              AllOf(HasSubstr("finding: gravity is 8."),
+                    HasSubstr("evit map transform --upright " + log + " --truth " + File("askew.tum"))));
+
+  const ProgramOutcome turned =
+      RunEvit("map transform " + File("askew.pcd") + " --upright " + log + " --truth " + File("askew.tum") +
+              " --out " + File("upright.pcd") + " --truth-out " + File("upright.tum"));
+  ASSERT_EQ(turned.code, 0) << turned.output;
+  EXPECT_THAT(turned.output, HasSubstr("--T-map-world"));
+  EXPECT_THAT(Check(File("upright.pcd"), Sample("rig.textproto"), File("upright.tum")),
+              HasSubstr("nothing looks wrong"));
+  const ProgramOutcome alone = RunEvit("map transform " + File("askew.pcd") + " --upright " + log + " --out " + File("a.pcd"));
+  EXPECT_NE(alone.code, 0);
+  EXPECT_THAT(alone.output, HasSubstr("--truth"));
+}
+
+}  // namespace
+}  // namespace evit::commands
