@@ -230,7 +230,7 @@ TEST_F(MapInputsTest, BlurredDarkAndCoveredPicturesAreLeftOut) {
   for (std::size_t k = 0; k < painted_->pictures.size(); ++k) {
     cv::Mat picture = painted_->pictures[k].clone();
     if (k == 2) cv::GaussianBlur(picture, picture, {}, 30);
-    if (k == 5) picture *= 0.005;
+    if (k == 5) picture *= 0.002;
     if (k == 9) picture.setTo(3);
     Write("grey/" + StampName(painted_->poses[k].t), PaintedPictures::Png(picture));
   }
