@@ -43,16 +43,18 @@ class MapCheckTest : public testing::Test {
 };
 
 TEST_F(MapCheckTest, SaysNothingWhereAllIsRight) {
-  const std::string text = Check(Sample("sample_map.pcd"), Sample("rig.textproto"), Sample("sample_truth.tum"));
+  const std::string text =
+      Check(Sample("sample_map.pcd"), Sample("rig.textproto"), Sample("sample_truth.tum"));
   EXPECT_THAT(text, AllOf(HasSubstr("nothing looks wrong"), Not(HasSubstr("finding:"))));
   EXPECT_THAT(text, Not(HasSubstr(" ms late"))) << "an offset that changes nothing is none";
 }
 
 TEST_F(MapCheckTest, NamesAMapOfAnotherFrameOrScale) {
   EXPECT_THAT(CheckMap("transform --transform '1 0 0 0.1 0 1 0 -0.06 0 0 1 0.05 0 0 0 1'"),
-              AllOf(HasSubstr("finding: poses shifted by"), HasSubstr("evit map transform --transform \"1 0 0 -0.0")));
-  EXPECT_THAT(CheckMap("transform --scale 1.05"),
-              AllOf(HasSubstr("too small for the map: corrected"), HasSubstr("evit map transform --scale 0.95")));
+              AllOf(HasSubstr("finding: poses shifted by"),
+                    HasSubstr("evit map transform --transform \"1 0 0 -0.0")));
+  EXPECT_THAT(CheckMap("transform --scale 1.05"), AllOf(HasSubstr("too small for the map: corrected"),
+                                                        HasSubstr("evit map transform --scale 0.95")));
   EXPECT_THAT(CheckMap("transform --transform '1 0 0 0 0 0 -1 0 0 1 0 0 0 0 0 1'"),
               AllOf(HasSubstr("hardly anything to do with each other"), HasSubstr("is y up in the map")));
 }
@@ -65,9 +67,10 @@ TEST_F(MapCheckTest, NamesATimeOffsetAndWrongExtrinsicsAndIntrinsics) {
   EXPECT_THAT(CheckRig([](Rig* rig) { rig->camera_time_offset += 30'000; }),
               AllOf(HasSubstr("finding: events "), HasSubstr(" ms late: corrected"),
                     HasSubstr("to camera.time_offset_us of")));
-  EXPECT_THAT(
-      CheckRig([](Rig* rig) { rig->T_body_camera.q = rig->T_body_camera.q * ExpSO3({0, 0.035, 0}); }),
-      AllOf(HasSubstr("finding: camera turned by 2.0"), HasSubstr("evit calibrate finds it")));
+  EXPECT_THAT(CheckRig([](Rig* rig) {
+                rig->T_body_camera.q = rig->T_body_camera.q * ExpSO3({0, 0.035, 0});
+              }),
+              AllOf(HasSubstr("finding: camera turned by 2.0"), HasSubstr("evit calibrate finds it")));
   EXPECT_THAT(CheckRig([](Rig* rig) { rig->camera.fx = rig->camera.fy = 175; }),
               AllOf(HasSubstr("finding: focal length 6."), HasSubstr("fx and fy of")));
 }
@@ -93,7 +96,8 @@ TEST_F(MapCheckTest, NamesAMapThatIsNotUprightAndMendsIt) {
   EXPECT_THAT(turned.output, HasSubstr("--T-map-world"));
   EXPECT_THAT(Check(File("upright.pcd"), Sample("rig.textproto"), File("upright.tum")),
               HasSubstr("nothing looks wrong"));
-  const ProgramOutcome alone = RunEvit("map transform " + File("askew.pcd") + " --upright " + log + " --out " + File("a.pcd"));
+  const ProgramOutcome alone =
+      RunEvit("map transform " + File("askew.pcd") + " --upright " + log + " --out " + File("a.pcd"));
   EXPECT_NE(alone.code, 0);
   EXPECT_THAT(alone.output, HasSubstr("--truth"));
 }

@@ -39,10 +39,12 @@ SE3 UprightRotation(const std::string& path, const Trajectory& body, const std::
     for (const ImuSample& sample : SamplesOf(batch)) gravity.Add(sample);
   }
   if (gravity.n() < kFewest) {
-    throw std::runtime_error(path + ": holds " + std::to_string(gravity.n()) + " IMU samples at the times of " +
-                             body_path + ", too few to tell where up is; are both of one recording?");
+    throw std::runtime_error(path + ": holds " + std::to_string(gravity.n()) +
+                             " IMU samples at the times of " + body_path +
+                             ", too few to tell where up is; are both of one recording?");
   }
-  return {Eigen::Quaterniond::FromTwoVectors(gravity.up(), Eigen::Vector3d::UnitZ()), Eigen::Vector3d::Zero()};
+  return {Eigen::Quaterniond::FromTwoVectors(gravity.up(), Eigen::Vector3d::UnitZ()),
+          Eigen::Vector3d::Zero()};
 }
 
 }  // namespace evit::mapping

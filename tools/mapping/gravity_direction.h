@@ -31,8 +31,8 @@ class GravityMean {
   std::size_t n_ = 0;
 };
 
-/// The least rotation that makes z point up: moves points of the poses' frame. `log`: LCM log with IMU. Throws
-/// std::runtime_error naming the file: no IMU samples at the times of the poses.
+/// The least rotation that makes z point up: moves points of the poses' frame. `log`: LCM log with IMU.
+/// Throws std::runtime_error naming the file: no IMU samples at the times of the poses.
 SE3 UprightRotation(const std::string& log, const Trajectory& body, const std::string& body_path);
 
 }  // namespace evit::mapping
