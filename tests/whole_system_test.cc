@@ -17,6 +17,7 @@
 
 #include "common/evaluation/covariance_file.h"
 #include "common/evaluation/trajectory_error.h"
+#include "common/geometry/degrees.h"
 #include "common/map/map_file.h"
 #include "tests/helpers/paths.h"
 
@@ -143,9 +144,9 @@ class WholeSystemTest : public ::testing::Test {
     EXPECT_GT(error.n_pairs, 30);
     EXPECT_GT(error.coverage, 0.95);
     EXPECT_LT(error.position_rmse, max_position);
-    EXPECT_LT(error.orientation_rmse, max_degrees / 57.295779513);
+    EXPECT_LT(error.orientation_rmse, max_degrees / kDegreesPerRadian);
     std::printf("ATE %.2f cm, %.2f deg, %d poses\n", 100 * error.position_rmse,
-                error.orientation_rmse * 57.295779513, error.n_pairs);
+                error.orientation_rmse * kDegreesPerRadian, error.n_pairs);
   }
   fs::path folder_;
 };

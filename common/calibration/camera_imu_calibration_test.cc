@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/geometry/degrees.h"
 #include "tests/helpers/calibration_recording.h"
 
 namespace evit {
@@ -12,35 +13,34 @@ namespace {
 using test::Recording;
 using ::testing::HasSubstr;
 
-constexpr double kDegree = EIGEN_PI / 180;
-
 void Print(const Recording& recording, const CameraImuCalibration& c) {
   const SE3 &truth = recording.rig.T_body_camera, &found = c.values.T_body_camera;
   std::printf(
       "off by %.3f deg, %.2f mm, %.0f us, tilt %.3f (%.3f) deg, accel %.1f (%.1f) mm/s^2; noise %.2f mm x "
       "%.0f, "
       "%.3f deg x %.0f; %d poses, %d left out\n",
-      AngularDistance(truth.q, found.q) / kDegree, 1e3 * (truth.p - found.p).norm(),
+      AngularDistance(truth.q, found.q) / kRadiansPerDegree, 1e3 * (truth.p - found.p).norm(),
       static_cast<double>(c.values.offset - recording.rig.camera_time_offset),
-      (c.values.tilt - recording.tilt).norm() / kDegree,
-      std::sqrt(c.covariance.block<2, 2>(7, 7).trace()) / kDegree,
+      (c.values.tilt - recording.tilt).norm() / kRadiansPerDegree,
+      std::sqrt(c.covariance.block<2, 2>(7, 7).trace()) / kRadiansPerDegree,
       1e3 * (c.values.bias.accel - recording.bias.accel).norm(),
       1e3 * std::sqrt(c.covariance.block<3, 3>(12, 12).trace()), 1e3 * c.noise.position,
-      c.noise.position_correlation, c.noise.rotation / kDegree, c.noise.rotation_correlation, c.n_poses,
-      c.n_rejected);
+      c.noise.position_correlation, c.noise.rotation / kRadiansPerDegree, c.noise.rotation_correlation,
+      c.n_poses, c.n_rejected);
 }
 
 void ExpectFound(const Recording& recording, const CameraImuCalibration& c) {
   ASSERT_TRUE(c.success) << c.reason;
   Print(recording, c);
   EXPECT_TRUE(c.unobservable.empty());
-  EXPECT_LT(AngularDistance(recording.rig.T_body_camera.q, c.values.T_body_camera.q), 0.1 * kDegree);
+  EXPECT_LT(AngularDistance(recording.rig.T_body_camera.q, c.values.T_body_camera.q),
+            0.1 * kRadiansPerDegree);
   EXPECT_LT((recording.rig.T_body_camera.p - c.values.T_body_camera.p).norm(), 5e-3);
   EXPECT_NEAR(static_cast<double>(c.values.offset), static_cast<double>(recording.rig.camera_time_offset),
               500);
   EXPECT_LT((c.values.bias.gyro - recording.bias.gyro).norm(), 0.002);
   EXPECT_LT((c.values.bias.accel - recording.bias.accel).norm(), 0.03);
-  EXPECT_LT((c.values.tilt - recording.tilt).norm(), 0.2 * kDegree);
+  EXPECT_LT((c.values.tilt - recording.tilt).norm(), 0.2 * kRadiansPerDegree);
 }
 
 // All 15 errors, in the order of the covariance.
@@ -117,7 +117,7 @@ TEST(CameraImuCalibration, SigmasAreOfTheErrorsSizeWhereTiltAndBiasTradeOff) {
 TEST(CameraImuCalibration, FindsTheTiltOfTheMap) {
   Recording recording;
   recording.seed = 3;
-  recording.tilt = {3 * kDegree, -2 * kDegree};
+  recording.tilt = {3 * kRadiansPerDegree, -2 * kRadiansPerDegree};
   ExpectFound(recording, CalibrateCameraImu(recording.Camera(), recording.Imu(), recording.Wrong()));
 }
 

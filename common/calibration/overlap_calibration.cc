@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/calibration/overlap_cost.h"
+#include "common/geometry/degrees.h"
 
 namespace evit {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 using Vector = OverlapCost::Vector;
 using Matrix = OverlapCost::Matrix;
 
-constexpr double kDegrees = 57.295779513082323;
 constexpr std::size_t kFewestViews = 10;
 constexpr std::int64_t kFewestEvents = 200;  // pixels that fired in a view: fewer say nothing
 constexpr std::size_t kStretches = 12;       // of the recording, for the spread of the gradient
@@ -169,7 +169,7 @@ OverlapCalibration CalibrateByOverlap(const std::vector<MapView>& all, const Tra
   OverlapCost::Values values;
   {
     const OverlapCost cost(&views, &body, rig.camera, coarse);
-    values = Search(cost, before, options.search_deg / kDegrees, 1.5 * coarse / rig.camera.fx,
+    values = Search(cost, before, options.search_deg / kDegreesPerRadian, 1.5 * coarse / rig.camera.fx,
                     std::max<std::size_t>(1, views.size() / kSearchViews));
     Minimise({cost, before, prior, 1}, &values);
   }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <random>
 
+#include "common/geometry/degrees.h"
 #include "common/tracking/synthetic_scene.h"
 
 namespace evit {
@@ -15,7 +16,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDegree = EIGEN_PI / 180;
 constexpr Utime kBegin = 5'000'000, kEnd = 9'000'000;
 
 class OverlapCalibrationTest : public ::testing::Test {
@@ -53,13 +53,13 @@ class OverlapCalibrationTest : public ::testing::Test {
 
   Rig Wrong(const Eigen::Vector3d& degrees, Utime late) const {
     Rig rig = truth_;
-    rig.T_body_camera.q = rig.T_body_camera.q * ExpSO3(kDegree * degrees);
+    rig.T_body_camera.q = rig.T_body_camera.q * ExpSO3(kRadiansPerDegree * degrees);
     rig.camera_time_offset += late;
     return rig;
   }
 
   double OffDegrees(const OverlapCalibration& c) const {
-    return AngularDistance(truth_.T_body_camera.q, c.T_body_camera.q) / kDegree;
+    return AngularDistance(truth_.T_body_camera.q, c.T_body_camera.q) / kRadiansPerDegree;
   }
 
   static OverlapCalibrationOptions ExactMap() {
@@ -102,7 +102,7 @@ TEST_F(OverlapCalibrationTest, SigmasHoldWhereMostEdgesCauseNoEvents) {
   const Eigen::Vector3d turn = LogSO3(c.T_body_camera.q.conjugate() * truth_.T_body_camera.q);
   for (int k = 0; k < 3; ++k) {
     EXPECT_LT(std::abs(turn[k]), 3 * std::sqrt(c.covariance(3 + k, 3 + k)));
-    EXPECT_LT(std::sqrt(c.covariance(3 + k, 3 + k)), 0.2 * kDegree);
+    EXPECT_LT(std::sqrt(c.covariance(3 + k, 3 + k)), 0.2 * kRadiansPerDegree);
   }
   EXPECT_LT(std::abs(ToSeconds(c.offset - 4'000)), 3 * std::sqrt(c.covariance(6, 6)));
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "common/config/rig_file.h"
+#include "common/geometry/degrees.h"
 #include "tests/helpers/config_files.h"
 #include "tests/helpers/paths.h"
 
@@ -43,7 +44,7 @@ TEST_F(RigReading, VectorRigHasTheFiguresOfVectorsCalibration) {
   // hand-held rig.
   EXPECT_LT((rig.T_marker_body * rig.T_body_camera).p.norm(), 0.3);
   // Camera forward (z) is the IMU's x axis within two degrees.
-  EXPECT_GT((rig.T_body_camera.q * Eigen::Vector3d::UnitZ()).x(), std::cos(2 * EIGEN_PI / 180));
+  EXPECT_GT((rig.T_body_camera.q * Eigen::Vector3d::UnitZ()).x(), std::cos(2 * kRadiansPerDegree));
 }
 
 TEST_F(RigReading, UnknownAndMissingKeysAreNamed) {

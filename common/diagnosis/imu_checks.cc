@@ -5,12 +5,11 @@
 #include <cstddef>
 
 #include "common/diagnosis/gravity_consistency.h"
+#include "common/geometry/degrees.h"
 #include "common/text/format_text.h"
 
 namespace evit::diagnosis {
 namespace {
-
-constexpr double kDegrees = 57.295779513082323;
 
 double Median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -118,7 +117,7 @@ Finding GyroUnit(const std::vector<ImuSample>& samples) {
   const GyroFit fit = FitGyroToGravity(samples);
   const std::string figure =
       fit.pairs > 0 ? FormatText("%.2g rad/s (median); gravity turned by %.0f deg, gyro differs by %.0f deg",
-                                 median, kDegrees * fit.without, kDegrees * fit.as_read)
+                                 median, kDegreesPerRadian * fit.without, kDegreesPerRadian * fit.as_read)
                     : FormatText("%.2g rad/s (median)", median);
   // 8 rad/s, 460 deg/s, for half of the time: no hand and no robot with a camera.
   if ((fit.Contradicted() && fit.InDegrees()) || median > 8) {

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "common/geometry/degrees.h"
 #include "common/map/map_file.h"
 #include "common/text/format_text.h"
 
 namespace evit::diagnosis {
 namespace {
-
-constexpr double kDegrees = 57.295779513082323;
 
 Finding Unit(const MapSummary& s) {
   const double extent = (s.max - s.min).maxCoeff();
@@ -65,7 +64,7 @@ Finding Upright(const SE3& start, const std::vector<ImuSample>& imu) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const ImuSample& s : imu)
     if (s.t < imu.front().t + 500'000) sum += s.accel;
-  const double tilt = kDegrees * std::acos(std::clamp((start.q * sum).normalized().z(), -1.0, 1.0));
+  const double tilt = kDegreesPerRadian * std::acos(std::clamp((start.q * sum).normalized().z(), -1.0, 1.0));
   const std::string figure = FormatText("gravity %.0f deg off the map's z axis at the start pose", tilt);
   // Hands accelerate a rig by 2 m/s^2 and more: 12 degrees.
   if (tilt > 25) {

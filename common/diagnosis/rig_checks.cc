@@ -2,15 +2,14 @@
 
 #include <cmath>
 
+#include "common/geometry/degrees.h"
 #include "common/text/format_text.h"
 
 namespace evit::diagnosis {
 namespace {
 
-constexpr double kDegrees = 57.295779513082323;
-
 Finding Intrinsics(const Camera& c) {
-  const double view = 2 * kDegrees * std::atan(c.width / (2 * c.fx));
+  const double view = 2 * kDegreesPerRadian * std::atan(c.width / (2 * c.fx));
   const double scale_x = 2 * c.cx / c.width, scale_y = 2 * c.cy / c.height;
   const std::string figure =
       FormatText("%dx%d, %.0f deg wide, centre at (%.0f, %.0f)", c.width, c.height, view, c.cx, c.cy);

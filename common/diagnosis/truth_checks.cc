@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "common/geometry/degrees.h"
 #include "common/text/format_text.h"
 
 namespace evit::diagnosis {
 namespace {
 
-constexpr double kDegrees = 57.295779513082323;
 constexpr Utime kHalf = 25'000, kStep = 20'000, kLagStep = 5'000;  // us
 
 struct Rates {
@@ -143,7 +143,8 @@ bool OnlyGyroIsTurned(const Trajectory& truth, const std::vector<ImuSample>& imu
 }
 
 Finding Rotation(const RateFit& fit, const Trajectory& truth, const std::vector<ImuSample>& imu) {
-  const double angle = kDegrees * AngularDistance(Eigen::Quaterniond(fit.R), Eigen::Quaterniond::Identity());
+  const double angle =
+      kDegreesPerRadian * AngularDistance(Eigen::Quaterniond(fit.R), Eigen::Quaterniond::Identity());
   const std::string figure =
       FormatText("the gyro's rates fit the truth's to %.0f %%, at %+.0f ms, scale %.3g", 100 * fit.explained,
                  1e3 * ToSeconds(fit.lag), fit.scale);
@@ -153,7 +154,7 @@ Finding Rotation(const RateFit& fit, const Trajectory& truth, const std::vector<
             "The truth does not turn as the gyro does, at any time offset up to a second.",
             "is it the truth of this recording? are its quaternions x y z w, and its poses body to map?"};
   }
-  if (std::abs(fit.scale - kDegrees) < 6 || std::abs(fit.scale * kDegrees - 1) < 0.1) {
+  if (std::abs(fit.scale - kDegreesPerRadian) < 6 || std::abs(fit.scale * kDegreesPerRadian - 1) < 0.1) {
     return {"imu-gyro-unit", Severity::kError, figure,
             fit.scale > 1 ? "The gyro is in degrees per second, not in rad/s."
                           : "The gyro was converted from degrees twice.",
@@ -191,7 +192,7 @@ Finding Rotation(const RateFit& fit, const Trajectory& truth, const std::vector<
 Finding Gravity(const Trajectory& truth, const std::vector<ImuSample>& imu, const RateFit& fit) {
   const Eigen::Vector3d up = Up(truth, imu, fit.lag);
   if (up.isZero()) return Good("gravity", "too few poses to tell");
-  const double tilt = kDegrees * std::acos(std::clamp(up.z(), -1.0, 1.0));
+  const double tilt = kDegreesPerRadian * std::acos(std::clamp(up.z(), -1.0, 1.0));
   const std::string figure = FormatText("the accelerometer's mean is %.1f deg off the map's z axis", tilt);
   if (tilt > 150) {
     return {"gravity", Severity::kError, figure,

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "common/text/words.h"
+
 namespace evit {
 namespace {
 
@@ -15,8 +17,6 @@ struct Decimal {
   int n = 0, point = 0;
   bool negative = false;
 };
-
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
 bool TakeApart(std::string_view text, Decimal* out) {
   std::size_t k = 0;

@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "common/text/words.h"
+
 namespace evit {
 namespace {
 
@@ -20,8 +22,6 @@ bool IsGap(char c) {
 }
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool IsCommentSign(char c) { return c == '#' || c == '%' || c == ';' || c == '/'; }
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-
 // The whole word as a number; none of its characters may be left over.
 template <typename T>
 bool Parse(std::string_view word, T* value) {

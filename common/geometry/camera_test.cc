@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "common/geometry/degrees.h"
+
 namespace evit {
 namespace {
 
@@ -61,7 +63,7 @@ TEST(Camera, EquidistantIsProportionalToTheAngle) {
   Camera camera = Equidistant();
   camera.distortion = {};
   for (const double degrees : {5.0, 40.0, 80.0}) {
-    const double angle = degrees * EIGEN_PI / 180;
+    const double angle = degrees * kRadiansPerDegree;
     Vector2d pixel;
     ASSERT_TRUE(camera.Project({std::sin(angle), 0, std::cos(angle)}, &pixel));
     EXPECT_NEAR(pixel.x(), 318 + 190 * angle, 1e-9);

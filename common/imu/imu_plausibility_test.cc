@@ -6,14 +6,13 @@
 #include <cmath>
 #include <functional>
 
+#include "common/geometry/degrees.h"
 #include "common/geometry/so3.h"
 
 namespace evit {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double kDegrees = 57.295779513082323;
 
 // A hand-held body that rolls and pitches by some 30 degrees, at 200 Hz; what a good IMU reads.
 std::vector<ImuSample> Handheld(double seconds, double speed = 1) {
@@ -46,7 +45,8 @@ TEST(ImuPlausibility, GoodImusAreFine) {
 
 TEST(ImuPlausibility, UnitsAreTold) {
   for (const double speed : {0.1, 0.5, 1.0, 3.0}) {
-    EXPECT_THAT(Changed(Handheld(10, speed), [](ImuSample* s) { s->gyro *= kDegrees; }), HasSubstr("deg/s"))
+    EXPECT_THAT(Changed(Handheld(10, speed), [](ImuSample* s) { s->gyro *= kDegreesPerRadian; }),
+                HasSubstr("deg/s"))
         << speed;
   }
   const auto samples = Handheld(5);

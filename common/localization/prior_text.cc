@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/geometry/degrees.h"
+
 namespace evit {
 namespace {
-
-constexpr double kDegree = EIGEN_PI / 180;
 
 // `count` finite numbers, separated by `separator`, and nothing else.
 std::vector<double> Numbers(const std::string& option, const std::string& text, char separator,
@@ -42,7 +42,7 @@ PlacePrior ParsePlacePrior(const std::string& near, const std::string& height, c
   if (!yaw.empty()) {
     const std::vector<double> n = Numbers("--yaw", yaw, ':', 2, "degrees:tolerance");
     if (n[1] <= 0) throw std::runtime_error("--yaw \"" + yaw + "\": expected a tolerance above 0 degrees");
-    prior.heading = {n[0] * kDegree, n[1] * kDegree};
+    prior.heading = {n[0] * kRadiansPerDegree, n[1] * kRadiansPerDegree};
   }
   return prior;
 }

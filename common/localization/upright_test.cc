@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/geometry/degrees.h"
 #include "common/tracking/synthetic_scene.h"
 
 namespace evit {
@@ -12,7 +13,7 @@ double ErrorDegrees(const synthetic::Motion& motion, double at, double seconds) 
   const Upright upright = EstimateUpright(motion.Samples(begin, end, {}), motion.gravity);
   EXPECT_TRUE(upright.known);
   const Eigen::Vector3d up = motion.Rotation(at).conjugate() * Eigen::Vector3d::UnitZ();
-  return std::acos(std::min(1.0, up.dot(upright.up))) * 180 / EIGEN_PI;
+  return std::acos(std::min(1.0, up.dot(upright.up))) * kDegreesPerRadian;
 }
 
 TEST(Upright, AtRestItIsTheForce) {

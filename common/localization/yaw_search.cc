@@ -12,9 +12,9 @@ namespace {
 
 using namespace panorama;  // NOLINT(google-build-using-namespace): this file is about nothing else
 
-constexpr int kFewest = 30;  // edges in sight: fewer say nothing
-constexpr int kPeaks = 3;    // yaws of one place
-constexpr int kApart = 3;    // yaw bins between them
+constexpr int kFewestEdges = 30;  // edges in sight: fewer say nothing
+constexpr int kPeaks = 3;         // yaws of one place
+constexpr int kApart = 3;         // yaw bins between them
 
 struct Sums {
   std::array<std::int16_t, kColumns> gain, sight;
@@ -43,7 +43,8 @@ void MatchPlace(const PlaceIndex& index, const PlaceIndex::Place& place, const E
   }
   std::array<double, kColumns> score;
   for (int s = 0; s < kColumns; ++s) {
-    score[s] = sums.sight[s] < kFewest ? 0 : sums.gain[s] / (events.sigma() * std::sqrt(1.0 * sums.sight[s]));
+    score[s] =
+        sums.sight[s] < kFewestEdges ? 0 : sums.gain[s] / (events.sigma() * std::sqrt(1.0 * sums.sight[s]));
     if (allowed && score[s] > 0 && !allowed(place.at, kBin * s)) score[s] = 0;
   }
   for (int peak = 0; peak < kPeaks; ++peak) {

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/degrees.h"
 #include "common/map/occlusion.h"
 #include "common/parallel/parallel_for.h"
 
 namespace evit {
 namespace {
 
-constexpr double kRad = M_PI / 180;
 constexpr double kKernelPx = 0.7;
 constexpr double kInlierPx = 1.0;
 constexpr int kBorderPx = 6;
@@ -146,7 +146,7 @@ void EdgeAdjustment::MovePose(const std::vector<MappedPoint>& points, double rad
     information /= kAlike;
     gradient /= kAlike;
     const double per_m2 = 1 / (options_.pose_sigma_m * options_.pose_sigma_m);
-    const double per_rad2 = 1 / std::pow(options_.pose_sigma_deg * kRad, 2);
+    const double per_rad2 = 1 / std::pow(options_.pose_sigma_deg * kRadiansPerDegree, 2);
     Vector6d off;
     off << view->T_map_camera.p - given.p, LogSO3(given.q.conjugate() * view->T_map_camera.q);
     Vector6d prior;
@@ -233,7 +233,7 @@ AdjustmentSummary EdgeAdjustment::Run(std::vector<MappedPoint>* points) {
   std::vector<double> moved, turned;
   for (int k = 0; k < n_views; ++k) {
     moved.push_back(((*views_)[k].T_map_camera.p - given[k].p).norm());
-    turned.push_back(AngularDistance((*views_)[k].T_map_camera.q, given[k].q) / kRad);
+    turned.push_back(AngularDistance((*views_)[k].T_map_camera.q, given[k].q) / kRadiansPerDegree);
   }
   summary.moved_m = Median(moved);
   summary.turned_deg = Median(turned);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/geometry/degrees.h"
 #include "common/parallel/parallel_for.h"
 
 namespace evit {
@@ -59,7 +60,7 @@ void RequireMotion(const std::vector<PosedEdges>& views, double depth, const Map
   double farthest = 0;
   for (const PosedEdges& view : views)
     farthest = std::max(farthest, (view.T_map_camera.p - views.front().T_map_camera.p).norm());
-  const double needed = depth * options.choice.min_parallax_deg * M_PI / 180 * 3;
+  const double needed = depth * options.choice.min_parallax_deg * kRadiansPerDegree * 3;
   if (farthest >= needed) return;
   throw std::runtime_error("the camera moved by no more than " +
                            std::to_string(static_cast<int>(1000 * farthest)) +

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "common/geometry/degrees.h"
+
 namespace evit {
 namespace {
-
-constexpr double kRad = M_PI / 180;
 
 // Share of 5 x 5 places of the key view, put at `depth`, that lie in the other view.
 double Overlap(const PosedEdges& key, const PosedEdges& other, double depth) {
@@ -34,7 +34,7 @@ std::vector<int> ChooseKeyViews(const std::vector<PosedEdges>& views, const View
     const bool near = std::any_of(keys.begin(), keys.end(), [&](int key) {
       const SE3& other = views[key].T_map_camera;
       return (pose.p - other.p).norm() < options.key_distance_m &&
-             AngularDistance(pose.q, other.q) < options.key_angle_deg * kRad;
+             AngularDistance(pose.q, other.q) < options.key_angle_deg * kRadiansPerDegree;
     });
     if (!near) keys.push_back(k);
   }
@@ -59,7 +59,8 @@ std::vector<int> ChooseNeighbours(const std::vector<PosedEdges>& views, int key,
     const Eigen::Vector3d at = T_key_map * views[k].T_map_camera.p;
     const Eigen::Vector2d parallax = at.head<2>() / depth;
     const double size = parallax.norm();
-    if (k == key || size < options.min_parallax_deg * kRad || size > options.max_parallax_deg * kRad)
+    if (k == key || size < options.min_parallax_deg * kRadiansPerDegree ||
+        size > options.max_parallax_deg * kRadiansPerDegree)
       continue;
     if (at.norm() > 0.5 * depth || Overlap(own, views[k], depth) < options.min_overlap) continue;
     candidates.push_back({k, parallax, size});

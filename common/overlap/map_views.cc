@@ -6,8 +6,8 @@
 namespace evit {
 namespace {
 
-constexpr Utime kAround = 10'000;    // us: half of the time over which a view's motion is taken
-constexpr std::size_t kFewest = 20;  // points in view
+constexpr Utime kAround = 10'000;          // us: half of the time over which a view's motion is taken
+constexpr std::size_t kFewestInView = 20;  // points in view
 
 double MedianSpeed(const Camera& camera, const std::vector<Eigen::Vector3f>& points, const SE3& before,
                    const SE3& after) {
@@ -46,7 +46,7 @@ std::vector<MapView> PlanViews(const MapIndex& map, const Rig& rig, const Trajec
     query.seed = static_cast<std::uint64_t>(t);
     for (const std::int32_t id : map.Query(query).ids)
       view.points.push_back(map.map().points[static_cast<std::size_t>(id)]);
-    if (view.points.size() < kFewest) continue;
+    if (view.points.size() < kFewestInView) continue;
     view.utime = t;
     view.speed_px =
         MedianSpeed(rig.camera, view.points, before * rig.T_body_camera, after * rig.T_body_camera);

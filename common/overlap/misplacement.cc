@@ -9,8 +9,8 @@ namespace {
 
 using Kind = Misplacement::Kind;
 
-constexpr double kLeastGain = 0.004;  // of the score, 0..1, that makes a correction one
-constexpr std::size_t kFewest = 300;  // points in view of all views together: by fewer nothing is told
+constexpr double kLeastGain = 0.004;        // of the score, 0..1, that makes a correction one
+constexpr std::size_t kFewestPoints = 300;  // points in view of all views together: by fewer nothing is told
 
 int Unknowns(Kind kind) {
   if (kind == Kind::kCentre) return 2;
@@ -107,7 +107,7 @@ class Fitter {
         score += 1 / (1 + offset.squaredNorm());
       }
     }
-    if (n < kFewest) return {};
+    if (n < kFewestPoints) return {};
     return {static_cast<double>(on) / static_cast<double>(n), score / static_cast<double>(n)};
   }
 

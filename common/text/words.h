@@ -13,6 +13,8 @@ inline std::string LowerCase(std::string text) {
   return text;
 }
 
+inline bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
 inline bool EndsWith(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/geometry/degrees.h"
 #include "common/tracking/alignment_significance.h"
 #include "common/tracking/gates.h"
 #include "common/tracking/localizer.h"
@@ -174,7 +175,7 @@ bool Bootstrapper::ReadyToAlign() const {
   const BootstrapFrame &first = frames_.front().frame, &last = frames_.back().frame;
   const double moved = (last.T_map_body.p - first.T_map_body.p).norm();
   const double turned = AngularDistance(first.T_map_body.q, last.T_map_body.q);
-  return moved >= o.min_displacement_m || turned >= o.min_rotation_deg * EIGEN_PI / 180 ||
+  return moved >= o.min_displacement_m || turned >= o.min_rotation_deg * kRadiansPerDegree ||
          ToSeconds(last.t - first.t) >= o.max_duration_s;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/geometry/degrees.h"
 #include "common/tracking/kernel_lanes.h"
 #include "common/tracking/reference_alignment.h"
 #include "common/tracking/synthetic_scene.h"
@@ -50,7 +51,7 @@ struct Frame {
 
 std::vector<Frame> Frames() {
   const auto roll = [](double deg) {
-    return ExpSO3(Eigen::Vector3d(1, 0.2, -0.3).normalized() * deg * EIGEN_PI / 180);
+    return ExpSO3(Eigen::Vector3d(1, 0.2, -0.3).normalized() * deg * kRadiansPerDegree);
   };
   return {{"origin", {}},
           {"roll 30", {roll(30), {0, 0, 0}}},

@@ -10,8 +10,8 @@
 namespace evit {
 namespace {
 
-constexpr std::size_t kMaxQueued = 4;  // views take 10 ms each: old answers help nobody
-constexpr int kMaxPixels = 640 * 512;  // a message of 1.3 MB, and the time to draw it
+constexpr std::size_t kMaxQueuedViews = 4;  // views take 10 ms each: old answers help nobody
+constexpr int kMaxPixels = 640 * 512;       // a message of 1.3 MB, and the time to draw it
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void ViewServer::OnQuery(const std::uint8_t* data, std::size_t size) {
     bus_->Publish(channel_, buffer_.data(), buffer_.size());
     return;
   }
-  if (queue_.size() == kMaxQueued) {
+  if (queue_.size() == kMaxQueuedViews) {
     queue_.pop_front();
     ++*dropped_;
   }

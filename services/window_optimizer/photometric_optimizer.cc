@@ -12,7 +12,7 @@ namespace evit {
 namespace {
 
 // Real time: then the tracker continues with the view at hand.
-constexpr RequestClient<MapViewRequest>::Patience kPatience{std::chrono::milliseconds(50)};
+constexpr RequestClient<MapViewRequest>::Patience kViewPatience{std::chrono::milliseconds(50)};
 
 constexpr std::size_t kMaxQueue = 2;  // keyframes waiting, real time
 
@@ -36,7 +36,7 @@ PhotometricOptimizer::PhotometricOptimizer(Bus* bus, const Channels& channels, c
       keyframe_inbox_(&status_, keyframe_t::EVENT_COUNT, settings.rig.camera),
       queue_(&status_, {settings.lossless, kMaxQueue, kMaxQueue, false}),
       hints_(&status_),
-      map_(bus, channels, &status_, kPatience, Clock::now()),
+      map_(bus, channels, &status_, kViewPatience, Clock::now()),
       publisher_(bus, channels, &status_),
       tracker_(settings.rig, settings.tracker, settings.T_map_body) {
   Subscribe(bus, channels.keyframe, this, &PhotometricOptimizer::OnKeyframe);

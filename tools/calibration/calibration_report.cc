@@ -6,13 +6,13 @@
 #include <cstdio>
 #include <vector>
 
+#include "common/geometry/degrees.h"
 #include "common/text/format_text.h"
 
 namespace evit::calibration {
 namespace {
 
-constexpr double kDegrees = 57.295779513082323;
-constexpr double kSureTilt = 11.6, kSmallTilt = 0.05 / kDegrees;  // chi-square of 2 dof, 99.7 %; rad
+constexpr double kSureTilt = 11.6, kSmallTilt = 0.05 / kDegreesPerRadian;  // chi-square of 2 dof, 99.7 %; rad
 constexpr char kAxes[] = "xyz";
 
 struct Row {
@@ -25,20 +25,20 @@ std::vector<Row> Rows(const Rig& before, const CameraImuCalibration& c) {
   std::vector<Row> rows;
   const auto sigma = [&](int k) { return std::sqrt(c.covariance(k, k)); };
   const Eigen::Vector3d turn =
-      kDegrees * LogSO3(before.T_body_camera.q.conjugate() * c.values.T_body_camera.q);
+      kDegreesPerRadian * LogSO3(before.T_body_camera.q.conjugate() * c.values.T_body_camera.q);
   for (int k = 0; k < 3; ++k) {
     rows.push_back({FormatText("T_body_camera %c [mm]", kAxes[k]), 1e3 * before.T_body_camera.p[k],
                     1e3 * c.values.T_body_camera.p[k], 1e3 * sigma(k), true});
   }
   for (int k = 0; k < 3; ++k) {
     rows.push_back({FormatText("turned about the camera's %c [deg]", kAxes[k]), 0, turn[k],
-                    kDegrees * sigma(3 + k), true});
+                    kDegreesPerRadian * sigma(3 + k), true});
   }
   rows.push_back({"camera.time_offset_us [ms]", 1e3 * ToSeconds(before.camera_time_offset),
                   1e3 * ToSeconds(c.values.offset), 1e3 * sigma(6), true});
   for (int k = 0; k < 2; ++k) {
     rows.push_back({FormatText("tilt of the map about its %c [deg]", kAxes[k]), 0,
-                    kDegrees * c.values.tilt[k], kDegrees * sigma(7 + k), false});
+                    kDegreesPerRadian * c.values.tilt[k], kDegreesPerRadian * sigma(7 + k), false});
   }
   for (int k = 0; k < 3; ++k) {
     rows.push_back({FormatText("gyro bias %c [mrad/s]", kAxes[k]), 0, 1e3 * c.values.bias.gyro[k],
@@ -65,7 +65,7 @@ std::string Sentence(const Unobservable& u) {
              FormatText(", known to %.1f cm only: %s; %s", 100 * u.sigma, kKept, kTurn);
     case Value::kRotation:
       return "rotation about " + Direction(u, "camera") +
-             FormatText(", known to %.1f deg only: %s; %s", kDegrees * u.sigma, kKept, kTurn);
+             FormatText(", known to %.1f deg only: %s; %s", kDegreesPerRadian * u.sigma, kKept, kTurn);
     case Value::kTimeOffset:
       return FormatText("time offset, known to %.1f ms only: %s; turn faster", 1e3 * u.sigma, kKept);
     case Value::kGyroBias:
@@ -78,7 +78,7 @@ std::string Sentence(const Unobservable& u) {
       break;
   }
   return "tilt of the map about " + Direction(u, "map") +
-         FormatText(", known to %.1f deg only; tilt the rig this way and that", kDegrees * u.sigma);
+         FormatText(", known to %.1f deg only; tilt the rig this way and that", kDegreesPerRadian * u.sigma);
 }
 
 }  // namespace
@@ -95,8 +95,8 @@ std::string CalibrationText(const Rig& before, const CameraImuCalibration& c) {
       FormatText("%.1f s, %d poses of the camera, %d left out; turning %.2f, %.2f, %.2f rad/s by axis\n",
                  c.seconds, c.n_poses, c.n_rejected, c.turning[0], c.turning[1], c.turning[2]);
   text += FormatText("poses fit the IMU to %.1f mm and %.2f deg, alike for %.0f and %.0f poses\n\n",
-                     1e3 * c.noise.position, kDegrees * c.noise.rotation, c.noise.position_correlation,
-                     c.noise.rotation_correlation);
+                     1e3 * c.noise.position, kDegreesPerRadian * c.noise.rotation,
+                     c.noise.position_correlation, c.noise.rotation_correlation);
   text += FormatText("%-34s %10s %12s %10s\n", "", "rig file", "calibrated", "sigma");
   for (const Row& row : Rows(before, c)) {
     text += FormatText("%-34s %10s %12.3f %10.3f\n", row.name.c_str(),
@@ -104,7 +104,7 @@ std::string CalibrationText(const Rig& before, const CameraImuCalibration& c) {
   }
   const Eigen::Vector3d moved = c.values.T_body_camera.p - before.T_body_camera.p;
   text += FormatText("camera turned by %.2f deg and moved by %.1f mm\n",
-                     kDegrees * AngularDistance(before.T_body_camera.q, c.values.T_body_camera.q),
+                     kDegreesPerRadian * AngularDistance(before.T_body_camera.q, c.values.T_body_camera.q),
                      1e3 * moved.norm());
   for (const Unobservable& u : c.unobservable)
     text += "NOT OBSERVABLE from this motion: " + Sentence(u) + "\n";
@@ -135,7 +135,7 @@ std::string TiltAdvice(const CameraImuCalibration& c, const std::string& map, co
   const SE3 turned = T_upright_map * start;
   const std::string upright = map.substr(0, map.find_last_of('.')) + "_upright.pcd";
   return FormatText("The map leans by %.2f deg: gravity is not along its -z. Turn it with\n",
-                    kDegrees * tilt.norm()) +
+                    kDegreesPerRadian * tilt.norm()) +
          "  evit map import " + map + " " + upright + " --transform \"" + numbers + "0 0 0 1\"\n" +
          FormatText(
              "after which this recording starts at --initial-pose \"%.6f %.6f %.6f %.8f %.8f %.8f %.8f\"; "

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/geometry/degrees.h"
 #include "common/map/map_file.h"
 #include "common/text/format_text.h"
 #include "tools/calibration/recorded_events.h"
@@ -14,7 +15,6 @@ namespace {
 constexpr Utime kStep = 33'000;
 constexpr Utime kMostViews = 300;  // fields of VGA: 100 MB
 constexpr double kMarginPx = 60;   // an extrinsic error of some degrees leaves it in view
-constexpr double kDegrees = 57.295779513082323;
 // Slices twice as long as where sharp edges are asked for: errors of stamps matter less, and what moves to
 // both sides of a view cancels.
 constexpr double kSlicePx = 6;
@@ -32,7 +32,7 @@ std::string Sentence(const Unobservable& u) {
       "rotation about (%.2f, %.2f, %.2f) of the camera, known to %.1f deg only: the value of the rig file is "
       "kept; "
       "have more of the map in view",
-      u.direction.x(), u.direction.y(), u.direction.z(), kDegrees * u.sigma);
+      u.direction.x(), u.direction.y(), u.direction.z(), kDegreesPerRadian * u.sigma);
 }
 
 struct Row {
@@ -42,15 +42,16 @@ struct Row {
 
 std::vector<Row> Rows(const Rig& before, const OverlapCalibration& c) {
   const auto sigma = [&](int k) { return std::sqrt(c.covariance(k, k)); };
-  const Eigen::Vector3d turn = kDegrees * LogSO3(before.T_body_camera.q.conjugate() * c.T_body_camera.q);
+  const Eigen::Vector3d turn =
+      kDegreesPerRadian * LogSO3(before.T_body_camera.q.conjugate() * c.T_body_camera.q);
   std::vector<Row> rows;
   for (int k = 0; k < 3; ++k) {
     rows.push_back({FormatText("T_body_camera %c [mm]", kAxes[k]), 1e3 * before.T_body_camera.p[k],
                     1e3 * c.T_body_camera.p[k], 1e3 * sigma(k)});
   }
   for (int k = 0; k < 3; ++k)
-    rows.push_back(
-        {FormatText("turned about the camera's %c [deg]", kAxes[k]), 0, turn[k], kDegrees * sigma(3 + k)});
+    rows.push_back({FormatText("turned about the camera's %c [deg]", kAxes[k]), 0, turn[k],
+                    kDegreesPerRadian * sigma(3 + k)});
   rows.push_back({"camera.time_offset_us [ms]", 1e3 * ToSeconds(before.camera_time_offset),
                   1e3 * ToSeconds(c.offset), 1e3 * sigma(6)});
   return rows;
@@ -115,7 +116,7 @@ std::string OverlapText(const Rig& before, const OverlapCalibration& c) {
   for (const Row& row : Rows(before, c))
     text += FormatText("%-34s %10.3f %12.3f %10.3f\n", row.name.c_str(), row.before, row.after, row.sigma);
   text += FormatText("camera turned by %.2f deg and moved by %.1f mm\n\n",
-                     kDegrees * AngularDistance(before.T_body_camera.q, c.T_body_camera.q),
+                     kDegreesPerRadian * AngularDistance(before.T_body_camera.q, c.T_body_camera.q),
                      1e3 * (before.T_body_camera.p - c.T_body_camera.p).norm());
   text += OverlapLine("rig file:", c.before) + OverlapLine("calibrated:", c.after);
   for (const Unobservable& u : c.unobservable)

@@ -7,13 +7,12 @@
 #include "common/evaluation/consistency.h"
 #include "common/evaluation/trajectory_error.h"
 #include "common/evaluation/trajectory_pairs.h"
+#include "common/geometry/degrees.h"
 #include "tools/evit/commands.h"
 #include "tools/pictures/consistency_plot.h"
 
 namespace evit::commands {
 namespace {
-
-constexpr double kDegrees = 57.295779513082323;
 
 struct EvalOptions {
   std::string truth, estimate, covariance, plot;
@@ -33,9 +32,9 @@ nlohmann::json ToJson(const TrajectoryError& e) {
   if (!e.scored()) return nullptr;
   return {{"pairs", e.n_pairs},
           {"position_rmse_cm", 100 * e.position_rmse},
-          {"orientation_rmse_deg", kDegrees * e.orientation_rmse},
+          {"orientation_rmse_deg", kDegreesPerRadian * e.orientation_rmse},
           {"position_max_cm", 100 * e.position_max},
-          {"orientation_max_deg", kDegrees * e.orientation_max}};
+          {"orientation_max_deg", kDegreesPerRadian * e.orientation_max}};
 }
 
 nlohmann::json ToJson(const Nees& nees) {
@@ -54,7 +53,7 @@ void PrintCell(const TrajectoryError& e) {
   if (!e.scored()) {
     std::printf("  %16s", "-");
   } else {
-    std::printf("  %7.2f / %6.2f", 100 * e.position_rmse, kDegrees * e.orientation_rmse);
+    std::printf("  %7.2f / %6.2f", 100 * e.position_rmse, kDegreesPerRadian * e.orientation_rmse);
   }
 }
 
@@ -118,10 +117,10 @@ void Evaluate(const EvalOptions& o) {
         "the estimate\n");
   }
   std::printf("\nlargest error (no alignment): %.2f cm, %.2f deg\n", 100 * whole.position_max,
-              kDegrees * whole.orientation_max);
+              kDegreesPerRadian * whole.orientation_max);
   if (relative.scored()) {
     std::printf("RPE over 1 s: %.2f cm, %.2f deg\n", 100 * relative.position_rmse,
-                kDegrees * relative.orientation_rmse);
+                kDegreesPerRadian * relative.orientation_rmse);
   }
   if (!o.covariance.empty()) std::printf("%s\n", ConsistencyText(consistency).c_str());
 }

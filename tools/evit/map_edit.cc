@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/evaluation/trajectory.h"
+#include "common/geometry/degrees.h"
 #include "common/map/map_file.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
@@ -46,7 +47,7 @@ SE3 TurnUpright(const MapEdit& edit) {
   Trajectory truth = ReadTum(edit.truth);
   const SE3 T = mapping::UprightRotation(edit.upright, truth, edit.truth);
   std::printf("turned by %.2f deg; for other poses: --T-map-world \"",
-              AngularDistance(T.q, {1, 0, 0, 0}) * 180 / M_PI);
+              AngularDistance(T.q, {1, 0, 0, 0}) * kDegreesPerRadian);
   for (int row = 0; row < 3; ++row)
     std::printf("%.9f %.9f %.9f 0 ", T.R()(row, 0), T.R()(row, 1), T.R()(row, 2));
   std::printf("0 0 0 1\"\n");

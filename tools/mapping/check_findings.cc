@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/geometry/degrees.h"
+
 namespace evit::mapping {
 namespace {
 
 using Kind = Misplacement::Kind;
-
-constexpr double kDeg = 180 / M_PI;
 
 template <typename... Values>
 std::string Text(const char* format, Values... values) {
@@ -56,8 +56,8 @@ std::string Describe(const Misplacement& fit) {
     case Kind::kTime:
       return Text("events %.1f ms %s", 1e3 * std::abs(v.x()), v.x() < 0 ? "late" : "early");
     case Kind::kRotation:
-      return Text("camera turned by %.2f deg (x %.2f, y %.2f, z %.2f)", kDeg * v.norm(), kDeg * v.x(),
-                  kDeg * v.y(), kDeg * v.z());
+      return Text("camera turned by %.2f deg (x %.2f, y %.2f, z %.2f)", kDegreesPerRadian * v.norm(),
+                  kDegreesPerRadian * v.x(), kDegreesPerRadian * v.y(), kDegreesPerRadian * v.z());
     case Kind::kShift:
       return Text("poses shifted by %.1f cm (%.3f %.3f %.3f m)", 100 * v.norm(), v.x(), v.y(), v.z());
     case Kind::kScale:
@@ -78,7 +78,7 @@ bool IsWorthAWord(const Misplacement& fit, double share_as_is) {
     case Kind::kTime:
       return std::abs(fit.value.x()) > 0.003;
     case Kind::kRotation:
-      return fit.value.norm() * kDeg > 0.2;
+      return fit.value.norm() * kDegreesPerRadian > 0.2;
     case Kind::kShift:
       return fit.value.norm() > 0.008;
     case Kind::kCentre:

@@ -8,6 +8,7 @@
 
 #include "common/bus/codec.h"
 #include "common/bus/log_file.h"
+#include "common/geometry/degrees.h"
 #include "common/text/words.h"
 #include "common/wire/imu_wire.h"
 
@@ -25,7 +26,9 @@ void GravityMean::Add(const ImuSample& sample) {
   ++n_;
 }
 
-double GravityMean::TiltDegrees() const { return std::acos(std::clamp(up().z(), -1.0, 1.0)) * 180 / M_PI; }
+double GravityMean::TiltDegrees() const {
+  return std::acos(std::clamp(up().z(), -1.0, 1.0)) * kDegreesPerRadian;
+}
 
 SE3 UprightRotation(const std::string& path, const Trajectory& body, const std::string& body_path) {
   const LogReader log(path);

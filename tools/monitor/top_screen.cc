@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "common/geometry/degrees.h"
 #include "common/service/status_reporter.h"
 
 namespace evit::monitor {
@@ -14,7 +15,6 @@ namespace {
 
 constexpr char kPlain[] = "\x1b[0m", kDim[] = "\x1b[2m", kGood[] = "\x1b[1;34m", kWait[] = "\x1b[1;33m",
                kBad[] = "\x1b[1;31m";
-constexpr double kDegrees = 57.295779513082323;
 constexpr double kSilentS = 3;  // services send STATUS once a second
 
 // Text from the bus must not steer the terminal.
@@ -117,7 +117,7 @@ std::string TopScreen::Draw(int columns, int rows, bool color) const {
   const std::string latency = latency_ms_ < 0 ? "not in real time" : Format("%.0f ms", latency_ms_);
   lines.push_back({kPlain, Format("sigma %5.1f mm, %.2f deg   points %d, %.0f %% on edges",
                                   1e3 * std::sqrt(std::max(0.0, c[0][0] + c[1][1] + c[2][2])),
-                                  kDegrees * std::sqrt(std::max(0.0, c[3][3] + c[4][4] + c[5][5])),
+                                  kDegreesPerRadian * std::sqrt(std::max(0.0, c[3][3] + c[4][4] + c[5][5])),
                                   window_.n_points, 100 * window_.inlier_share)});
   lines.push_back({kPlain, Format("solve %5.1f ms   latency %s   overload %s", window_.solve_ms,
                                   latency.c_str(), OverloadText(*watch_).c_str())});

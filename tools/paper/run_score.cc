@@ -8,6 +8,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "common/geometry/degrees.h"
 #include "tools/run/report.pb.h"
 
 namespace evit::paper {
@@ -79,8 +80,7 @@ RunScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estimate, st
   for (std::size_t a = 0; a < kAlignments.size(); ++a) {
     for (std::size_t m = 0; m < kMilestones.size(); ++m) {
       const TrajectoryError e = MilestoneError(truth, tracked, kAlignments[a], kMilestones[m]);
-      constexpr double kDegrees = 57.295779513082323;
-      if (e.scored()) score.ate[a][m] = Ate{100 * e.position_rmse, kDegrees * e.orientation_rmse};
+      if (e.scored()) score.ate[a][m] = Ate{100 * e.position_rmse, kDegreesPerRadian * e.orientation_rmse};
     }
   }
   score.tracked = AbsoluteError(truth, tracked, Alignment::kNone).coverage;

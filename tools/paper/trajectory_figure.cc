@@ -4,13 +4,13 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "common/geometry/degrees.h"
 #include "tools/pictures/chart.h"
 #include "tools/pictures/write_picture.h"
 
 namespace evit::paper {
 namespace {
 
-constexpr double kDegrees = 57.295779513082323;
 constexpr double kGap = 0.3;  // s
 const cv::Scalar kTruth(150, 150, 150);
 const cv::Scalar kColors[] = {{60, 140, 230}, {190, 110, 30}, {150, 50, 130}, {70, 150, 50},
@@ -39,7 +39,7 @@ Curves CurvesOf(const Trajectory& poses, const SE3& T_truth_estimate, const Eige
       while (angle - last[axis] < -M_PI) angle += 2 * M_PI;
       last[axis] = angle;
       curves.v[axis].push_back(pose.p[axis]);
-      curves.v[3 + axis].push_back(kDegrees * angle);
+      curves.v[3 + axis].push_back(kDegreesPerRadian * angle);
     }
   }
   return curves;

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "common/geometry/degrees.h"
 #include "tools/pictures/chart.h"
 #include "tools/pictures/write_picture.h"
 
 namespace evit::pictures {
 namespace {
 
-constexpr double kDegrees = 57.295779513082323;
 constexpr double kGap = 0.3;  // s: longer ones are not bridged
 const cv::Scalar kErrorColour(150, 50, 130), kBound(170, 170, 170);
 const char* const kNames[6] = {"position x (map)",  "position y (map)",  "position z (map)",
@@ -23,7 +23,7 @@ void PlotConsistency(const std::string& path, const std::string& title, const Co
   const auto& errors = consistency.errors;
   const Utime t0 = errors.empty() ? 0 : errors.front().t;
   for (int k = 0; k < 6; ++k) {
-    const double unit = k < 3 ? 100 : kDegrees;
+    const double unit = k < 3 ? 100 : kDegreesPerRadian;
     Chart chart{kNames[k], "time [s]", k < 3 ? "[cm]" : "[deg]", {}, false, false};
     if (errors.empty()) chart.title += ": no ground truth";
     Series error{"error", kErrorColour, {}, {}, true, kGap};

@@ -1,12 +1,12 @@
 #include "tools/pictures/run_plot.h"
 
+#include "common/geometry/degrees.h"
 #include "tools/pictures/chart.h"
 #include "tools/pictures/write_picture.h"
 
 namespace evit::pictures {
 namespace {
 
-constexpr double kDegreesPerRadian = 57.295779513082323;
 constexpr int kDashes[3] = {0, 14, 5};  // of x, y and z: told apart without colour too
 const cv::Scalar kTruth(170, 170, 170), kError(150, 50, 130);
 

@@ -7,13 +7,15 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "common/geometry/degrees.h"
+
 namespace evit::render {
 namespace {
 
-constexpr double kFieldOfView = 45 / 57.2957795;  // rad, vertical
-constexpr double kTilt = 32 / 57.2957795;         // rad: looks down by this
-constexpr double kNear = 0.05;                    // m
-constexpr double kStrays = 0.02;                  // share of points that may lie outside, at each end
+constexpr double kFieldOfView = 45 / kDegreesPerRadian;  // rad, vertical
+constexpr double kTilt = 32 / kDegreesPerRadian;         // rad: looks down by this
+constexpr double kNear = 0.05;                           // m
+constexpr double kStrays = 0.02;                         // share of points that may lie outside, at each end
 constexpr std::size_t kMostPoints = 300'000;
 
 cv::Scalar Rgb(unsigned hex) {

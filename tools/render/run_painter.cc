@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 
+#include "common/geometry/degrees.h"
 #include "common/wire/geometry_wire.h"
 #include "tools/monitor/surface_overlay.h"
 #include "tools/pictures/chart.h"
@@ -12,7 +13,6 @@
 namespace evit::render {
 namespace {
 
-constexpr double kDegrees = 57.295779513082323;
 constexpr double kFrustumM = 0.35;
 constexpr std::int64_t kLongestStepUs = 300'000;  // between two poses of the path: more is a gap
 
@@ -47,7 +47,7 @@ RunPainter::RunPainter(const RecordedRun* run, const PointMap& map, const Rig& r
       map_place_(Part(options.size, 0, 0, 0.62, 1)),
       surface_place_(Part(options.size, 0.63, 0.02, 0.36, 0.48)),
       curves_place_(Part(options.size, 0.63, 0.52, 0.36, 0.46)),
-      map_(map.points, map_place_.size(), options.turn_deg / kDegrees, theme_) {
+      map_(map.points, map_place_.size(), options.turn_deg / kDegreesPerRadian, theme_) {
   for (const window_state_t& window : run->windows()) {
     const double* v = window.node.back().velocity;
     const auto& c = window.covariance;
@@ -61,7 +61,7 @@ cv::Mat RunPainter::Paint(std::int64_t t) {
   const std::size_t now = run_->WindowAt(t);
   const window_state_t& window = run_->windows()[now];
   const double seconds = 1e-6 * static_cast<double>(t - run_->windows().front().utime);
-  PaintMap(now, (options_.turn_deg + options_.turn_deg_per_s * seconds) / kDegrees, &picture);
+  PaintMap(now, (options_.turn_deg + options_.turn_deg_per_s * seconds) / kDegreesPerRadian, &picture);
   PaintSurface(window, &picture);
   const int half = curves_place_.height / 2;
   PaintCurve("speed, m/s", speed_, now, {curves_place_.x, curves_place_.y, curves_place_.width, half - 4},

@@ -8,18 +8,17 @@
 
 #include "common/evaluation/trajectory_error.h"
 #include "common/evaluation/trajectory_pairs.h"
+#include "common/geometry/degrees.h"
 
 namespace evit::run {
 namespace {
 
-constexpr double kDegrees = 57.295779513082323;
-
 void Fill(const TrajectoryError& error, report::Error* out) {
   out->set_pairs(error.n_pairs);
   out->set_position_rmse_cm(100 * error.position_rmse);
-  out->set_orientation_rmse_deg(kDegrees * error.orientation_rmse);
+  out->set_orientation_rmse_deg(kDegreesPerRadian * error.orientation_rmse);
   out->set_position_max_cm(100 * error.position_max);
-  out->set_orientation_max_deg(kDegrees * error.orientation_max);
+  out->set_orientation_max_deg(kDegreesPerRadian * error.orientation_max);
 }
 
 void Fill(const Nees& nees, report::Nees* out) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "common/geometry/degrees.h"
 #include "common/parallel/parallel_for.h"
 #include "tools/simulation/image_map.h"
 #include "tools/simulation/random.h"
@@ -47,7 +48,7 @@ std::vector<Utime> ChooseMapViews(const PoseSpline& motion, Utime begin, Utime e
     const SE3 pose = motion.Pose(t);
     const bool known = std::any_of(poses.begin(), poses.end(), [&](const SE3& p) {
       return (p.p - pose.p).norm() < settings.min_move_m &&
-             AngularDistance(p.q, pose.q) * 57.2957795 < settings.min_turn_deg;
+             AngularDistance(p.q, pose.q) * kDegreesPerRadian < settings.min_turn_deg;
     });
     if (known) continue;
     times.push_back(t);

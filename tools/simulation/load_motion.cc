@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/geometry/degrees.h"
 #include "tools/simulation/builtin_motion.h"
 
 namespace evit::simulation {
@@ -13,7 +14,6 @@ namespace evit::simulation {
 namespace {
 
 constexpr Utime kMargin = 300'000;  // of poses beyond the clip, so that the spline's ends are well supported
-constexpr double kDegrees = 57.29577951308232;
 constexpr char kBuiltin[] = "builtin:";
 
 // Sets begin and end, and leaves only the poses of that part with a margin around it.
@@ -52,7 +52,7 @@ void MeasureFit(const Trajectory& poses, Motion* motion) {
   for (const StampedPose& pose : poses) {
     const SE3 fitted = motion->spline.Pose(pose.t);
     motion->fit_rms_m += (fitted.p - pose.pose.p).squaredNorm();
-    motion->fit_rms_deg += std::pow(kDegrees * AngularDistance(fitted.q, pose.pose.q), 2);
+    motion->fit_rms_deg += std::pow(kDegreesPerRadian * AngularDistance(fitted.q, pose.pose.q), 2);
   }
   motion->fit_rms_m = std::sqrt(motion->fit_rms_m / static_cast<double>(poses.size()));
   motion->fit_rms_deg = std::sqrt(motion->fit_rms_deg / static_cast<double>(poses.size()));

@@ -10,8 +10,8 @@
 namespace evit::formats {
 namespace {
 
-constexpr Utime kStep = 2'000;        // us between the offsets that are tried
-constexpr std::size_t kFewest = 100;  // pairs of flow and gyro: 2 s
+constexpr Utime kStep = 2'000;             // us between the offsets that are tried
+constexpr std::size_t kFewestPairs = 100;  // pairs of flow and gyro: 2 s
 constexpr double kLeastExplained = 0.5;
 constexpr Utime kNear = 100'000;     // us: a rival further away than this must fit clearly worse
 constexpr double kRivalShare = 0.9;  // of what the best explains
@@ -62,7 +62,7 @@ double Explained(const std::vector<FlowSample>& flow, const GyroIntegral& gyro, 
     squares += v.squaredNorm();
     ++n;
   }
-  if (n < kFewest) return -1;
+  if (n < kFewestPairs) return -1;
   const double variance = squares - sum.squaredNorm() / n;
   if (variance <= 0) return 0;
   normal.diagonal().head<3>().array() += 1e-9 * n;
@@ -75,7 +75,7 @@ double Explained(const std::vector<FlowSample>& flow, const GyroIntegral& gyro, 
 
 ClockAlignment AlignClocks(const std::vector<FlowSample>& flow, const std::vector<ImuSample>& imu,
                            Utime guess, Utime range) {
-  if (flow.size() < kFewest || imu.size() < 2) {
+  if (flow.size() < kFewestPairs || imu.size() < 2) {
     throw std::runtime_error(
         "the clocks cannot be aligned: only " + std::to_string(flow.size()) +
         " windows of 20 ms show how the image moves; at least 100 are needed: give --imu-offset");

@@ -7,9 +7,9 @@
 namespace evit::formats {
 namespace {
 
-constexpr std::int64_t kFewest = 300;  // events in a window
-constexpr int kMaxShift = 60;          // pixels between two windows: 3000 pixels/s
-constexpr int kBlur = 2;               // pixels
+constexpr std::int64_t kFewestEvents = 300;  // events in a window
+constexpr int kMaxShift = 60;                // pixels between two windows: 3000 pixels/s
+constexpr int kBlur = 2;                     // pixels
 
 // Blurred, and with its mean taken away: what is left is where edges are.
 std::vector<float> Prepared(const std::vector<float>& counts) {
@@ -58,7 +58,8 @@ EventFlow::EventFlow(int width, int height) {
 
 void EventFlow::Close() {
   double dx = 0, dy = 0;
-  if (now_.n >= kFewest && before_.n >= kFewest && Shift(Prepared(before_.x), Prepared(now_.x), &dx) &&
+  if (now_.n >= kFewestEvents && before_.n >= kFewestEvents &&
+      Shift(Prepared(before_.x), Prepared(now_.x), &dx) &&
       Shift(Prepared(before_.y), Prepared(now_.y), &dy)) {
     samples_.push_back({end_ - kWindow, dx / ToSeconds(kWindow), dy / ToSeconds(kWindow)});
   }
