@@ -141,10 +141,10 @@ void SelfLocator::Decide() {
       best.Turn() < options_.least_turn || best.weak > 0) {
     return;
   }
-  const double least =
-      since < 2 * options_.follow_s ? options_.least_significance : options_.patient_significance;
-  if (best.Mean() < least) return;
-  if (const std::size_t rivals = places_.Rivals(best, options_.least_lead); rivals > 0) {
+  const bool patient = since >= 2 * options_.follow_s;
+  if (best.Mean() < (patient ? options_.patient_significance : options_.least_significance)) return;
+  const double lead = patient ? options_.patient_lead : options_.least_lead;
+  if (const std::size_t rivals = places_.Rivals(best, lead); rivals > 0) {
     progress_ = FormatText("ambiguous: %zu places look alike", rivals + 1);
     return;
   }

@@ -27,6 +27,7 @@ struct SelfLocatorOptions {
   double least_significance = 6;    // of one that counts as found, mean over its keyframes
   double patient_significance = 5;  // the same, once it has been followed for twice as long
   double least_lead = 2;            // by which it is ahead of any other, in the same keyframes
+  double patient_lead = 1.5;        // the same, once it has been followed for twice as long
   double worth_following = 4;       // significance of what is followed at all
   std::size_t max_hypotheses = 8;   // that are followed at a time
   double again_s = 1;               // after that long without a decision the whole map is searched again
