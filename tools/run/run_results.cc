@@ -16,6 +16,8 @@
 namespace evit::run {
 namespace {
 
+constexpr double kLateStart = 0.5;  // s: a first pose after that is worth telling
+
 // Only what was played counts: an interrupted run has seen a part.
 double PlayedSeconds(const RunInputs& inputs, const Recorder& recorder, const RunOutcome& outcome) {
   const Utime end = outcome.ended == "finished" ? inputs.end : std::max(inputs.begin, recorder.mode().utime);
@@ -89,15 +91,17 @@ void PrintLatency(const report::Report& report) {
   row("IMU-rate pose            ", report.imu_pose());
 }
 
-std::string Title(const RunJob& job, const report::Report& report) {
+// `poses`: those that were scored.
+std::string Title(const RunJob& job, const report::Report& report, const Trajectory& poses) {
   std::string name = std::filesystem::path(job.log).stem().string();
   if (report.ate().empty()) return name + (report.not_scored().empty() ? "" : ": no score");
   const report::Error& all = report.ate(0).all();
   char text[160];
-  std::snprintf(text, sizeof text,
-                ": ATE %.2f cm, %.2f deg (map frame, no alignment), %.0f %% of the sequence",
-                all.position_rmse_cm(), all.orientation_rmse_deg(), 100 * report.coverage());
-  return name + text;
+  std::snprintf(
+      text, sizeof text, ": ATE %.2f cm, %.2f deg (map frame, no alignment), %.0f %% of the sequence",
+      all.position_rmse_cm(), all.orientation_rmse_deg(), 100 * TrackedShare(poses, report.sequence_s()));
+  const double first = ToSeconds(poses.front().t - static_cast<Utime>(report.begin_utime()));
+  return name + text + (first > kLateStart ? FormatText(", first pose after %.1f s", first) : "");
 }
 
 // The sum of the services' counters of which `is` says so.
@@ -162,7 +166,7 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
   WriteTum(job.out + "/smoothed.tum", recorder.smoothed());
   WriteCovariances(job.out + "/covariance.csv", recorder.covariances());
   WriteReport(job.out + "/report.json", report);
-  const std::string title = Title(job, report);
+  const std::string title = Title(job, report, online);
   bool drawn = Draw([&] { pictures::PlotRun(job.out + "/trajectory.png", title, inputs.truth, online); });
 
   std::printf("%s\n", title.c_str());
