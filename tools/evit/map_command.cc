@@ -66,7 +66,7 @@ void WriteViews(const std::string& folder, const PointMap& map) {
   pictures::WriteTopView(folder + "/top.png", map);
   PointMap turned = map;
   for (Eigen::Vector3f& p : turned.points) p = {p.x(), p.z(), -p.y()};
-  pictures::WriteTopView(folder + "/side.png", turned);
+  pictures::WriteTopView(folder + "/side.png", turned, "-y");
 }
 
 }  // namespace

@@ -55,7 +55,8 @@ void Write(cv::Mat* picture, const std::string& text, cv::Point at) {
 
 }  // namespace
 
-TopView DrawTopView(const PointMap& map, int side, const std::vector<Eigen::Vector2d>& also) {
+TopView DrawTopView(const PointMap& map, int side, const std::vector<Eigen::Vector2d>& also,
+                    const std::string& height_name) {
   auto x = Extent(map, 0), y = Extent(map, 1);
   const auto z = Extent(map, 2);
   for (const Eigen::Vector2d& p : also) {
@@ -99,12 +100,12 @@ TopView DrawTopView(const PointMap& map, int side, const std::vector<Eigen::Vect
   const int right = picture.cols - kBorder - kLegend;
   cv::Mat legend = picture(cv::Rect(right, base - 6, kLegend, 8));
   cv::resize(colours, legend, legend.size(), 0, 0, cv::INTER_AREA);
-  Write(&picture, Format("z %.2f .. %.2f m", z.first, z.second), {right, base - 12});
+  Write(&picture, height_name + Format(" %.2f .. %.2f m", z.first, z.second), {right, base - 12});
   return {picture, scale, {kBorder - x.first * scale, kBorder + y.second * scale}};
 }
 
-void WriteTopView(const std::string& path, const PointMap& map) {
-  WritePicture(path, DrawTopView(map, kSide).picture);
+void WriteTopView(const std::string& path, const PointMap& map, const std::string& height) {
+  WritePicture(path, DrawTopView(map, kSide, {}, height).picture);
 }
 
 }  // namespace evit::pictures

@@ -20,10 +20,12 @@ struct TopView {
 /// Draws a map coloured by height, with a scale bar and the origin's axes. Strays far off the rest are left
 /// out of the frame; `also`: points (x, y) of the map frame that must be in it. `side`: pixels of the plan's
 /// longer side. Requires at least one point.
-TopView DrawTopView(const PointMap& map, int side, const std::vector<Eigen::Vector2d>& also = {});
+TopView DrawTopView(const PointMap& map, int side, const std::vector<Eigen::Vector2d>& also = {},
+                    const std::string& height = "z");
 
 /// The same as a picture file (PNG by the name's extension). Throws std::runtime_error naming the file where
 /// it cannot be written.
-void WriteTopView(const std::string& path, const PointMap& map);
+/// `height`: the name of what the colours show, where the map has been turned.
+void WriteTopView(const std::string& path, const PointMap& map, const std::string& height = "z");
 
 }  // namespace evit::pictures
