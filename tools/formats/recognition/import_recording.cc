@@ -64,10 +64,10 @@ ImportSummary ImportRecording(const RecordingImport& given,
   RecordingImport job = given;
   if (job.paths.size() == 1 && std::filesystem::is_directory(job.paths.front()) &&
       !IsRecording(job.paths.front())) {
-    const RecordingFiles files = FindRecording(job.paths.front());
+    const RecordingFiles files = FindRecording(job.paths.front(), job.imu, job.truth);
     job.paths = files.events;
-    if (job.imu.empty()) job.imu = files.imu;
-    if (job.truth.empty()) job.truth = files.truth;
+    job.imu = files.imu;
+    job.truth = files.truth;
   }
   const std::unique_ptr<Recording> recording = OpenRecording(job.paths, job.choice);
   RecordingInfo info = recording->info();

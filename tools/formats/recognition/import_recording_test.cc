@@ -61,6 +61,15 @@ TEST_F(ImportRecordingTest, AFolderOfADataSetIsOneRecording) {
   EXPECT_EQ(log.imu[1].gyro, Eigen::Vector3d(1, 2, 3));
   ASSERT_EQ(log.truth.size(), 2U);
   EXPECT_EQ(log.truth[0].pose.p, Eigen::Vector3d(11, 2, 3));
+
+  // Of several the user's choice counts, and a truth of the IMU is not the IMU's samples.
+  folder_.Write("in/other_imu.txt", "");
+  EXPECT_THROW(Import(), std::runtime_error);
+  job_.imu = folder_.File("in/imu_data.txt");
+  folder_.Write("in/truth_imu.tum", "");
+  EXPECT_THROW(Import(), std::runtime_error);
+  job_.truth = folder_.File("in/mocap_data.txt");
+  EXPECT_EQ(Import().n_events, 3);
 }
 
 TEST_F(ImportRecordingTest, EventsAloneBecomeALogWithoutImu) {
@@ -79,6 +88,7 @@ TEST_F(ImportRecordingTest, AnImuFileWithoutAnImuIsRefused) {
   EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(HasSubstr("is no IMU file")));
   EXPECT_FALSE(std::filesystem::exists(job_.out));
   job_.paths = {folder_.File("in")};
+  job_.imu.clear();
   folder_.Write("in/events.txt", "0.1 1 1 1\n");
   folder_.Write("in/imu.txt", "0 0 0 9.81 1 2 3\n");
   folder_.Write("in/imu2.txt", "0 0 0 9.81 1 2 3\n");

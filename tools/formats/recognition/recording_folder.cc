@@ -44,7 +44,8 @@ std::string OnlyOne(const std::vector<std::string>& files, const std::string& fo
 
 }  // namespace
 
-RecordingFiles FindRecording(const std::string& folder) {
+RecordingFiles FindRecording(const std::string& folder, const std::string& given_imu,
+                             const std::string& given_truth) {
   RecordingFiles found;
   std::vector<std::string> events, beside, imu, truth, text_events;
   for (const fs::path& file : FilesBelow(folder)) {
@@ -53,10 +54,10 @@ RecordingFiles FindRecording(const std::string& folder) {
     if (IsText(file)) {
       if (name == "events.txt")
         text_events.push_back(path);
+      else if (Contains(name, "truth") || Contains(name, "mocap") || Contains(name, ".gt."))
+        truth.push_back(path);
       else if (Contains(name, "imu"))
         imu.push_back(path);
-      else if (Contains(name, "groundtruth") || Contains(name, "mocap") || Contains(name, ".gt."))
-        truth.push_back(path);
     } else if (H5Recording::Recognises(path)) {
       const H5File h5(path);
       if (!FindEvents(h5).empty()) {
@@ -73,8 +74,8 @@ RecordingFiles FindRecording(const std::string& folder) {
     throw std::runtime_error(folder + ": holds no events (HDF5 with events, events.txt, or a ROS 2 bag)");
   found.events = {OnlyOne(events, folder, "events", "FILE instead of the folder")};
   found.events.insert(found.events.end(), beside.begin(), beside.end());
-  found.imu = OnlyOne(imu, folder, "the IMU's", "--imu");
-  found.truth = OnlyOne(truth, folder, "the truth", "--truth");
+  found.imu = given_imu.empty() ? OnlyOne(imu, folder, "the IMU's", "--imu") : given_imu;
+  found.truth = given_truth.empty() ? OnlyOne(truth, folder, "the truth", "--truth") : given_truth;
   return found;
 }
 

@@ -11,8 +11,9 @@ struct RecordingFiles {
   std::string imu, truth;           // text tables; empty: none
 };
 
-/// Looks through a folder and those in it. Throws std::runtime_error where there are no events, or several
-/// recordings.
-RecordingFiles FindRecording(const std::string& folder);
+/// Looks through a folder and those in it. `imu`, `truth`: files that are chosen already; empty: to be found.
+/// Throws std::runtime_error where there are no events, or several recordings.
+RecordingFiles FindRecording(const std::string& folder, const std::string& imu = "",
+                             const std::string& truth = "");
 
 }  // namespace evit::formats
