@@ -29,9 +29,8 @@ class KeyframePolicy {
   };
   /// Stamp of the keyframe that is due, in (last, imu]; nothing if none is due.
   /// Tracking: the newest IMU sample's (paper Sec. III-B.1), not before the useful interval is over.
-  /// Bootstrapping or lost: fixed intervals, also
-  /// between IMU samples (so with a fixed rate), but not inside a hole in the IMU stream, where nothing can
-  /// be interpolated.
+  /// Bootstrapping or lost: fixed intervals, also between IMU samples (so with a fixed rate), but not inside
+  /// a hole in the IMU stream, where nothing can be interpolated.
   std::optional<Utime> Due(const Situation& situation) const;
 
   bool IsHighRate(TrackerFeedback::Mode mode) const {

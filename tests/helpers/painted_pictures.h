@@ -1,9 +1,6 @@
 #pragma once
 
-#include <sys/wait.h>
-
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
@@ -13,27 +10,8 @@
 #include "common/evaluation/trajectory.h"
 #include "common/map/map_file.h"
 #include "tests/helpers/painted_scene.h"
-#include "tests/helpers/paths.h"
 
 namespace evit {
-
-/// What a program said on both streams, and how it ended.
-struct ProgramOutcome {
-  int code = -1;
-  std::string output;
-};
-
-inline ProgramOutcome RunEvit(const std::string& arguments) {
-  std::FILE* pipe = ::popen((test::ProgramPath("evit") + " " + arguments + " 2>&1").c_str(), "r");
-  ProgramOutcome outcome;
-  if (pipe == nullptr) return outcome;
-  std::array<char, 4096> buffer{};
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
-    outcome.output.append(buffer.data(), n);
-  const int status = ::pclose(pipe);
-  if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
-  return outcome;
-}
 
 /// Pictures of a painted wall: a camera of 200x150, one each 0.1 s from `begin`, of a camera that moves by
 /// `width` m.

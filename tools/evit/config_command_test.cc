@@ -1,35 +1,19 @@
 // `evit config`, the program.
-#include <sys/wait.h>
-
-#include <array>
-#include <cstdio>
 
 #include "common/config/settings_file.h"
 #include "common/config/settings_text.h"
 #include "tests/helpers/config_files.h"
 #include "tests/helpers/paths.h"
+#include "tests/helpers/run_evit.h"
 
 namespace evit::commands {
 namespace {
 
 using ::testing::HasSubstr;
 
-struct Result {
-  int code;
-  std::string output;  // both streams
-};
+using Result = test::ProgramOutcome;
 
-Result Config(const std::string& arguments) {
-  std::FILE* pipe = ::popen((test::ProgramPath("evit") + " config " + arguments + " 2>&1").c_str(), "r");
-  Result result{-1, ""};
-  if (pipe == nullptr) return result;
-  std::array<char, 4096> buffer{};
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
-    result.output.append(buffer.data(), n);
-  const int status = ::pclose(pipe);
-  if (WIFEXITED(status)) result.code = WEXITSTATUS(status);
-  return result;
-}
+Result Config(const std::string& arguments) { return test::RunEvit("config " + arguments); }
 
 class ConfigCommand : public test::ConfigFilesTest {};
 

@@ -1,15 +1,12 @@
 // `evit import`, the program.
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 
 #include "common/config/rig_file.h"
 #include "common/evaluation/trajectory.h"
 #include "tests/helpers/h5_files.h"
-#include "tests/helpers/paths.h"
+#include "tests/helpers/run_evit.h"
 #include "tests/helpers/temporary_folder.h"
 
 namespace evit::commands {
@@ -22,17 +19,10 @@ using Integers = std::vector<std::int64_t>;
 class ImportCommandTest : public ::testing::Test {
  protected:
   /// What `evit import ARGUMENTS` prints on both streams; its exit code is compared.
-  std::string Import(const std::string& arguments, int expected_code) const {
-    std::FILE* pipe = ::popen((test::ProgramPath("evit") + " import " + arguments + " 2>&1").c_str(), "r");
-    std::string output;
-    if (pipe == nullptr) return output;
-    std::array<char, 4096> buffer{};
-    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
-      output.append(buffer.data(), n);
-    const int status = ::pclose(pipe);
-    EXPECT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), expected_code) << output;
-    return output;
+  static std::string Import(const std::string& arguments, int expected_code) {
+    const test::ProgramOutcome outcome = test::RunEvit("import " + arguments);
+    EXPECT_EQ(outcome.code, expected_code) << outcome.output;
+    return outcome.output;
   }
 
   const TemporaryFolder folder_{"import_command"};

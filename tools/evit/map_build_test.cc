@@ -1,10 +1,8 @@
 // `evit map build` and what changes maps, the program.
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -18,7 +16,7 @@
 #include "common/wire/event_wire.h"
 #include "tests/helpers/painted_events.h"
 #include "tests/helpers/painted_scene.h"
-#include "tests/helpers/paths.h"
+#include "tests/helpers/run_evit.h"
 
 namespace evit::commands {
 namespace {
@@ -26,10 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-struct Outcome {
-  int code = -1;
-  std::string output;  // both streams
-};
+using Outcome = test::ProgramOutcome;
 
 // Pictures of a painted wall with a camera file and poses, in a folder of the test's own.
 class MapBuildTest : public testing::Test {
@@ -60,17 +55,7 @@ class MapBuildTest : public testing::Test {
 
   static std::string File(const std::string& name) { return (folder_ / name).string(); }
 
-  static Outcome Map(const std::string& arguments) {
-    std::FILE* pipe = ::popen((test::ProgramPath("evit") + " map " + arguments + " 2>&1").c_str(), "r");
-    Outcome outcome;
-    if (pipe == nullptr) return outcome;
-    std::array<char, 4096> buffer{};
-    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
-      outcome.output.append(buffer.data(), n);
-    const int status = ::pclose(pipe);
-    if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
-    return outcome;
-  }
+  static Outcome Map(const std::string& arguments) { return test::RunEvit("map " + arguments); }
 
   static Outcome Build(const std::string& pictures, const std::string& poses, const std::string& more = "") {
     return Map("build --images " + File(pictures) + " --poses " + File(poses) + " --camera " +

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "tests/helpers/painted_pictures.h"
+#include "tests/helpers/run_evit.h"
 #include "tests/helpers/temporary_folder.h"
 
 namespace evit::commands {
@@ -20,14 +21,15 @@ class MapCheckTest : public testing::Test {
 
   // What is said where one of the inputs is another than the sample's.
   std::string Check(const std::string& map, const std::string& rig, const std::string& truth) const {
-    const ProgramOutcome outcome = RunEvit("map check --log " + Sample("sample.lcmlog") + " --map " + map +
-                                           " --rig " + rig + " --truth " + truth);
+    const test::ProgramOutcome outcome =
+        test::RunEvit("map check --log " + Sample("sample.lcmlog") + " --map " + map + " --rig " + rig +
+                      " --truth " + truth);
     EXPECT_EQ(outcome.code, 0) << outcome.output;
     return outcome.output;
   }
   std::string CheckMap(const std::string& transform) const {
-    const ProgramOutcome made =
-        RunEvit("map " + transform + " " + Sample("sample_map.pcd") + " --out " + File("map.pcd"));
+    const test::ProgramOutcome made =
+        test::RunEvit("map " + transform + " " + Sample("sample_map.pcd") + " --out " + File("map.pcd"));
     EXPECT_EQ(made.code, 0) << made.output;
     return Check(File("map.pcd"), Sample("rig.textproto"), Sample("sample_truth.tum"));
   }
@@ -89,15 +91,15 @@ TEST_F(MapCheckTest, NamesAMapThatIsNotUprightAndMendsIt) {
               AllOf(HasSubstr("finding: gravity is 8."),
                     HasSubstr("evit map transform --upright " + log + " --truth " + File("askew.tum"))));
 
-  const ProgramOutcome turned =
-      RunEvit("map transform " + File("askew.pcd") + " --upright " + log + " --truth " + File("askew.tum") +
-              " --out " + File("upright.pcd") + " --truth-out " + File("upright.tum"));
+  const test::ProgramOutcome turned = test::RunEvit(
+      "map transform " + File("askew.pcd") + " --upright " + log + " --truth " + File("askew.tum") +
+      " --out " + File("upright.pcd") + " --truth-out " + File("upright.tum"));
   ASSERT_EQ(turned.code, 0) << turned.output;
   EXPECT_THAT(turned.output, HasSubstr("--T-map-world"));
   EXPECT_THAT(Check(File("upright.pcd"), Sample("rig.textproto"), File("upright.tum")),
               HasSubstr("nothing looks wrong"));
-  const ProgramOutcome alone =
-      RunEvit("map transform " + File("askew.pcd") + " --upright " + log + " --out " + File("a.pcd"));
+  const test::ProgramOutcome alone =
+      test::RunEvit("map transform " + File("askew.pcd") + " --upright " + log + " --out " + File("a.pcd"));
   EXPECT_NE(alone.code, 0);
   EXPECT_THAT(alone.output, HasSubstr("--truth"));
 }

@@ -1,16 +1,13 @@
 // `evit map`, the program.
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/helpers/map_files.h"
-#include "tests/helpers/paths.h"
+#include "tests/helpers/run_evit.h"
 
 namespace evit::commands {
 namespace {
@@ -18,23 +15,9 @@ namespace {
 using test::TemporaryFile;
 using ::testing::HasSubstr;
 
-struct Result {
-  int code;
-  std::string output;  // both streams
-};
+using Result = test::ProgramOutcome;
 
-Result Map(const std::string& arguments) {
-  std::FILE* pipe = ::popen((test::ProgramPath("evit") + " map " + arguments + " 2>&1").c_str(), "r");
-  Result result{-1, ""};
-  if (pipe == nullptr) return result;
-  std::array<char, 4096> buffer{};
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
-    result.output.append(buffer.data(), n);
-  }
-  const int status = ::pclose(pipe);
-  if (WIFEXITED(status)) result.code = WEXITSTATUS(status);
-  return result;
-}
+Result Map(const std::string& arguments) { return test::RunEvit("map " + arguments); }
 
 // A grid of 10 x 10 x 10 points, `spacing` apart, with a hole.
 std::string Cloud(double spacing) {

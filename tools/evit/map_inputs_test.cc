@@ -7,6 +7,7 @@
 
 #include "tests/helpers/painted_pictures.h"
 #include "tests/helpers/ros_bags.h"
+#include "tests/helpers/run_evit.h"
 #include "tests/helpers/temporary_folder.h"
 #include "tests/helpers/zip_files.h"
 
@@ -49,20 +50,20 @@ class MapInputsTest : public testing::Test {
     }
     return dense;
   }
-  ProgramOutcome Build(const std::string& arguments) const {
+  test::ProgramOutcome Build(const std::string& arguments) const {
     fs::remove(File("map.pcd"));
-    return RunEvit("map build --out " + File("map.pcd") + " " + arguments);
+    return test::RunEvit("map build --out " + File("map.pcd") + " " + arguments);
   }
   std::string Calibrated() const {
     return " --poses " + File("poses.tum") + " --camera " + File("camera.textproto");
   }
-  void ExpectGoodMap(const ProgramOutcome& outcome, double median_m = 0.005) const {
+  void ExpectGoodMap(const test::ProgramOutcome& outcome, double median_m = 0.005) const {
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     const std::vector<double> errors = painted_->Errors(File("map.pcd"));
     ASSERT_GT(errors.size(), 500U);
     EXPECT_LT(errors[errors.size() / 2], median_m);
   }
-  void ExpectRefused(const ProgramOutcome& outcome, const std::string& words) const {
+  void ExpectRefused(const test::ProgramOutcome& outcome, const std::string& words) const {
     EXPECT_NE(outcome.code, 0) << words;
     EXPECT_THAT(outcome.output, HasSubstr(words));
     EXPECT_FALSE(fs::exists(File("map.pcd")) || fs::exists(File("map.pcd.part"))) << words;
@@ -94,7 +95,7 @@ TEST_F(MapInputsTest, AZipOfPicturesWithStampsAndPosesAtAnotherRate) {
   Trajectory dense = Dense({});
   dense.resize(dense.size() - 20);
   WriteTum(File("poses.tum"), dense);
-  const ProgramOutcome outcome = Build("--images " + File("left.zip") + Calibrated());
+  const test::ProgramOutcome outcome = Build("--images " + File("left.zip") + Calibrated());
   ExpectGoodMap(outcome);
   EXPECT_THAT(outcome.output, HasSubstr("2 of 16 pictures have no pose"));
   EXPECT_THAT(outcome.output, HasSubstr("1 of 14 pictures cannot be read"));
@@ -149,7 +150,7 @@ TEST_F(MapInputsTest, TumsLayoutOfRgbAndDepth) {
   // TUM's own camera is 640x480.
   ExpectRefused(Build("--rgbd " + File("tum")), "the camera file says 640x480");
   // In millimetres everything would be five times as far.
-  const ProgramOutcome far = Build("--rgbd " + File("tum") + camera + " --depth-scale 1000");
+  const test::ProgramOutcome far = Build("--rgbd " + File("tum") + camera + " --depth-scale 1000");
   EXPECT_TRUE(far.code != 0 || far.output.find("warning") != std::string::npos) << far.output;
 }
 
@@ -212,13 +213,13 @@ TEST_F(MapInputsTest, PosesOfAnotherFrameOrClockAreNamed) {
   Trajectory body, late;
   for (const StampedPose& pose : Dense(SE3(ExpSO3({1.2, -1.2, 1.2}), {0.1, 0, 0.05}))) body.push_back(pose);
   WriteTum(File("poses.tum"), body);
-  const ProgramOutcome askew = Build(grey);
+  const test::ProgramOutcome askew = Build(grey);
   EXPECT_TRUE(askew.code != 0 || askew.output.find("warning:") != std::string::npos) << askew.output;
   EXPECT_THAT(askew.output, testing::ContainsRegex("clock(, order)? (or|and) frame"));
   // Half a second late within the recording: some pictures have a pose, a wrong one.
   for (const StampedPose& pose : Dense({})) late.push_back({pose.t + 500'000, pose.pose});
   WriteTum(File("poses.tum"), late);
-  const ProgramOutcome outcome = Build(grey);
+  const test::ProgramOutcome outcome = Build(grey);
   EXPECT_THAT(outcome.output, HasSubstr("pictures have no pose"));
   EXPECT_TRUE(outcome.code != 0 || outcome.output.find("warning:") != std::string::npos) << outcome.output;
   // Nothing but what lies between two poses far apart.
@@ -234,7 +235,7 @@ TEST_F(MapInputsTest, BlurredDarkAndCoveredPicturesAreLeftOut) {
     if (k == 9) picture.setTo(3);
     Write("grey/" + StampName(painted_->poses[k].t), PaintedPictures::Png(picture));
   }
-  const ProgramOutcome outcome = Build("--images " + File("grey") + Calibrated());
+  const test::ProgramOutcome outcome = Build("--images " + File("grey") + Calibrated());
   ExpectGoodMap(outcome);
   EXPECT_THAT(outcome.output, HasSubstr("3 of 16 pictures show few edges (blurred, dark, covered"));
 }
@@ -260,7 +261,7 @@ TEST_F(MapInputsTest, WrongIntrinsicsAreWarnedOf) {
   other.camera.fx = other.camera.fy = 220;
   other.camera.cx = 70;
   WriteMountedCamera(File("camera.textproto"), other, "test");
-  const ProgramOutcome outcome = Build("--images " + File("grey") + Calibrated());
+  const test::ProgramOutcome outcome = Build("--images " + File("grey") + Calibrated());
   EXPECT_TRUE(outcome.code != 0 || outcome.output.find("warning:") != std::string::npos) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("calibration"));
   EXPECT_THAT(outcome.output, testing::Not(HasSubstr("ms apart"))) << "each picture has a pose of its own";
@@ -275,7 +276,7 @@ TEST_F(MapInputsTest, WhatCannotBeWrittenLeavesNothing) {
   for (std::size_t k = 0; k < painted_->pictures.size(); ++k)
     Write("grey/" + StampName(painted_->poses[k].t), PaintedPictures::Png(painted_->pictures[k]));
   fs::create_directories(File("map.pcd.part"));
-  const ProgramOutcome outcome = Build("--images " + File("grey") + Calibrated());
+  const test::ProgramOutcome outcome = Build("--images " + File("grey") + Calibrated());
   EXPECT_NE(outcome.code, 0);
   EXPECT_THAT(outcome.output, HasSubstr("map.pcd"));
   EXPECT_FALSE(fs::exists(File("map.pcd")));

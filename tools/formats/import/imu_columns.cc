@@ -122,7 +122,7 @@ std::vector<double> Column(const TableSample& sample, std::size_t column) {
   return values;
 }
 
-// Whole seconds in the first column and nanoseconds in the second: only together do they always go on.
+// Whole seconds in the first column and nanoseconds in the second: only together do they always increase.
 bool SecondsAndNanoseconds(const TableSample& sample) {
   const std::vector<double> s = Column(sample, 0), ns = Column(sample, 1);
   if (s.size() < 10 || s.size() != ns.size()) return false;
