@@ -31,7 +31,7 @@ class ImportCommandTest : public ::testing::Test {
 
 // M3ED's: the events, the IMU, the truth of the left camera and the calibration of a falcon.
 std::string M3edFile(const TemporaryFolder& folder) {
-  const std::string path = folder.File("falcon.h5");
+  std::string path = folder.File("falcon.h5");
   H5Maker file(path);
   file.Put("prophesee/left/x", H5T_STD_U16LE, Integers{0, 1279, 2});
   file.Put("prophesee/left/y", H5T_STD_U16LE, Integers{719, 0, 3});
@@ -101,11 +101,11 @@ TEST_F(ImportCommandTest, TextsOfSeveralKindsAndEurocsFolders) {
   std::string imu =
       "#timestamp [ns],w_x [rad s^-1],w_y [rad s^-1],w_z [rad s^-1],a_x [m s^-2],a_y [m s^-2],a_z\n";
   for (int k = 0; k < 50; ++k) {
-    const std::string t = std::to_string(1'600'000'000'000'000 + 1000 * k), x = std::to_string(3 * k);
+    const std::string t = std::to_string(1'600'000'000'000'000 + 1000L * k), x = std::to_string(3 * k);
     size += "1600000000." + std::to_string(1'000'000 + 1000 * k).substr(1) + " " + x + " 7 1\n";
-    index += std::to_string(k) + "," + t + "," + x + ",7,1\n";
-    words += t + "," + x + ",7,True\n";
-    imu += t + "000,0.1,0.2,0.3,0.1,0.2,9.8\n";
+    index.append(std::to_string(k)).append(",").append(t).append(",").append(x).append(",7,1\n");
+    words.append(t).append(",").append(x).append(",7,True\n");
+    imu.append(t).append("000,0.1,0.2,0.3,0.1,0.2,9.8\n");
   }
   std::filesystem::create_directories(folder_.File("mav0/imu0"));
   folder_.Write("mav0/imu0/data.csv", imu);
