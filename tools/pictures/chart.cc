@@ -126,12 +126,14 @@ void Chart::Draw(cv::Mat* image, const cv::Rect& where) const {
     int base = 0;
     x -= cv::getTextSize(s->name, cv::FONT_HERSHEY_SIMPLEX, kLabel, 1, &base).width;
     DrawText(image, s->name, {x, where.y + 24}, kLabel, Anchor::kLeft);
-    const int piece = s->dash > 0 ? s->dash : 30;
-    for (int at = 0; at == 0 || at + piece <= 30; at += 2 * piece) {
-      cv::line(*image, {x - 37 + at, where.y + 19}, {x - 37 + std::min(30, at + piece), where.y + 19},
-               s->color, 3, cv::LINE_AA);
+    const int sample = s->dash > 0 ? std::max(30, 3 * s->dash) : 30;  // pixels: shows two dashes at least
+    for (int at = 0; at < sample; at += 2 * s->dash) {
+      const int end = s->dash > 0 ? std::min(sample, at + s->dash) : sample;
+      cv::line(*image, {x - 7 - sample + at, where.y + 19}, {x - 7 - sample + end, where.y + 19}, s->color, 3,
+               cv::LINE_AA);
+      if (s->dash <= 0) break;
     }
-    x -= 50;
+    x -= sample + 20;
   }
 }
 
