@@ -185,6 +185,12 @@ Eigen::Vector3f OntoLine(Neighbours* neighbours, const Eigen::Vector3f& p, std::
 
 }  // namespace
 
+DenoiseSettings DenoiseSettingsFor(const PointMap& map) {
+  DenoiseSettings settings;
+  if (!map.attributes.empty()) settings.radius = 0;
+  return settings;
+}
+
 DenoiseSummary Denoise(const DenoiseSettings& settings, PointMap* map) {
   DenoiseSummary summary;
   if (map->points.empty() || settings.radius <= 0) return summary;

@@ -69,6 +69,16 @@ TEST(Denoise, DropsLonelyPointsOfADenseMapOnly) {
   EXPECT_EQ(sparse.points.size(), before.size());
 }
 
+TEST(Denoise, LeavesAMapThatKnowsItsSigmasAsItIs) {
+  std::vector<Eigen::Vector3f> truth;
+  PointMap map = NoisyEdges(0.003, 0.001, &truth);
+  EXPECT_GT(DenoiseSettingsFor(map).radius, 0);
+  map.attributes.resize(map.points.size());
+  const std::vector<Eigen::Vector3f> before = map.points;
+  EXPECT_EQ(Denoise(DenoiseSettingsFor(map), &map).n_moved, 0U);
+  EXPECT_EQ(map.points, before);
+}
+
 TEST(Denoise, CrowdsAndFarPointsDoNotHoldItUp) {
   std::mt19937 random(5);
   std::normal_distribution<float> gauss(0, 0.001F);

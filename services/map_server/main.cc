@@ -25,15 +25,13 @@ int Main(int argc, char** argv) {
       "Serves what a camera sees of a map: points of a semi-dense one, views of a photometric one "
       "(LCM service)."};
   std::string path, photometric_path;
-  evit::DenoiseSettings denoise;
   evit::ServiceOptions options;
   line.Add("--map", &path, "Point cloud: PCD, PLY or text, metres, z up");
   line.Add("--photometric-map", &photometric_path, "PLY with intensities (evit map photometric), for EVPT");
   double radius = -1;
   line.Add("--denoise-radius", &radius,
            "Points move onto the line through their neighbours within this, m; 0: as read. Left out: 0.02, "
-           "and "
-           "as read where the map has sigmas (evit map build thins its maps itself)")
+           "and as read where the map has sigmas (evit map build thins its maps itself)")
       .Range(0.0, 0.2);
   bool places = false;
   line.AddFlag(
@@ -49,8 +47,8 @@ int Main(int argc, char** argv) {
     loaded = evit::LoadMap(path);
     const evit::MapSummary summary = evit::Summarize(loaded.map);
     evit::RequireMetres(summary, path);
+    evit::DenoiseSettings denoise = evit::DenoiseSettingsFor(loaded.map);
     if (radius >= 0) denoise.radius = radius;
-    if (radius < 0 && !loaded.map.attributes.empty()) denoise.radius = 0;
     description = Describe(loaded, summary, evit::Denoise(denoise, &loaded.map));
   }
   std::optional<evit::PhotometricMap> photometric;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -11,6 +12,7 @@
 #include "common/config/rig_file.h"
 #include "common/config/settings_file.h"
 #include "common/evaluation/trajectory.h"
+#include "common/localization/place_index_file.h"
 #include "common/localization/prior_text.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/place_options.h"
@@ -94,8 +96,10 @@ int Locate(const LocateOptions& o) {
   const int threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 4);
   const locate::RecordedStreams streams(o.log);
   const locate::PreparedMap map = locate::PrepareMap(o.map, threads);
-  std::printf("%zu places, %.1f MB\n", map.places->places().size(),
-              1e-6 * static_cast<double>(map.places->MemoryBytes()));
+  const std::string kept = PlaceIndexPath(o.map);
+  std::printf("%zu places, %.1f MB%s\n", map.places->places().size(),
+              1e-6 * static_cast<double>(map.places->MemoryBytes()),
+              std::filesystem::exists(kept) ? (", kept for the next time in " + kept).c_str() : "");
   std::fflush(stdout);
   const auto run = [&](Utime begin) {
     return locate::RunLocator(streams, map, rig, options, locating, begin, o.seconds, o.hold, threads);

@@ -78,7 +78,7 @@ class Session {
 PreparedMap PrepareMap(const std::string& path, int threads) {
   LoadedMap loaded = LoadMap(path);
   RequireMetres(Summarize(loaded.map), path);
-  Denoise({}, &loaded.map);
+  Denoise(DenoiseSettingsFor(loaded.map), &loaded.map);  // as map_server does: they share the index
   PreparedMap prepared;
   PlaceIndexOptions options;
   options.threads = threads;

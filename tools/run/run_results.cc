@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "common/localization/place_index_file.h"
 #include "common/text/format_text.h"
 #include "common/text/words.h"
 #include "tools/pictures/consistency_plot.h"
@@ -192,6 +193,9 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
                 static_cast<long long>(inputs.lost_bytes));
   std::printf("results: %s/{trajectory.tum,smoothed.tum,covariance.csv,report.json,trajectory.png%s}\n",
               job.out.c_str(), scored ? ",consistency.png" : "");
+  const std::string places = PlaceIndexPath(job.map);
+  if (!inputs.start && std::filesystem::exists(places))
+    std::printf("the map's places, kept for the next start without a pose: %s\n", places.c_str());
   std::fflush(stdout);
   const std::string failure =
       FailureOf(report, report.keyframes() == 0 ? StatusText(recorder) : recorder.mode().reason,
