@@ -20,6 +20,7 @@
 #include "common/geometry/degrees.h"
 #include "common/map/map_file.h"
 #include "tests/helpers/paths.h"
+#include "tests/helpers/tcpq_server.h"
 
 namespace evit {
 namespace {
@@ -245,6 +246,43 @@ TEST_F(WholeSystemTest, RunningPipelineCanBeListedAndCommanded) {
   ExpectGood(Path("out/trajectory.tum"), 0.02, 0.8);
   EXPECT_EQ(Restarts("out"), 0);  // ordered restarts are not deaths
   EXPECT_THAT(Shell(evit + "ps").output, HasSubstr("neither `evit run` nor `evit up` is running"));
+}
+
+// Another driver begins to send while a run is at work.
+TEST_F(WholeSystemTest, ASecondSenderThatComesLaterIsTold) {
+  Result run;
+  std::thread running([&] { run = Shell(RunCommand("out", "--realtime --speed 0.25")); });
+  const std::string evit = "XDG_RUNTIME_DIR=" + folder_.string() + " " + kEvit + " ";
+  EXPECT_TRUE(Eventually(
+      [&] { return Shell(evit + "logs window_optimizer").output.find("tracking") != std::string::npos; }));
+  const Result feed = Shell(kEvit + " feed --from " + kLogs + "sample.lcmlog --realtime --lcm-url " +
+                            "'udpm://239.255.76.67:7667?ttl=0'");
+  EXPECT_EQ(feed.code, 0) << feed.output;
+  running.join();
+  EXPECT_EQ(run.code, 2) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("two senders on EVENTS"));
+  EXPECT_THAT(run.output, HasSubstr("--prefix NAME/"));
+  EXPECT_TRUE(fs::exists(Path("out/report.json")));  // what it has is kept
+}
+
+// The server that all messages go through dies while a run is at work.
+TEST_F(WholeSystemTest, ATcpqServerThatGoesAwayEndsTheRunWithItsName) {
+  test::TcpqServer server;
+  ASSERT_NE(server.port(), 0);
+  const std::string url = "tcpq://127.0.0.1:" + std::to_string(server.port());
+  Result run;
+  std::thread running([&] { run = Shell(RunCommand("out", "--realtime --speed 0.25 --lcm-url " + url)); });
+  // Keyframes and poses by the hundred: it is at work.
+  EXPECT_TRUE(Eventually([&] { return server.n_messages() > 500; })) << server.n_messages();
+  server.Stop();
+  running.join();
+  EXPECT_EQ(run.code, 1) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("tcpq: the server at " + url.substr(7) + " is gone"));
+  for (const char* service : {"map_server", "window_optimizer", "frame_builder", "log_replay"}) {
+    EXPECT_FALSE(Lives(service)) << service;
+    const std::string log = ReadAll(Path(std::string("out/") + service + ".log"));
+    EXPECT_EQ(log.find("terminate called"), std::string::npos) << log;
+  }
 }
 
 TEST_F(WholeSystemTest, SurvivesLogReplayCrashInRealTime) { KillInRealTime("log_replay"); }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/diagnosis/flicker.h"
+#include "common/events/known_sensors.h"
 #include "common/text/format_text.h"
 
 namespace evit::diagnosis {
@@ -76,6 +77,14 @@ Finding Polarity(const EventCensus& e) {
   return Good("polarity", figure);
 }
 
+// The sensor whose events lie in so many columns and rows: the last ones may just have seen nothing.
+std::string AtLeast(int columns, int rows) {
+  const auto sensor = SmallestKnownSensor(columns, rows);
+  const std::string known =
+      sensor ? FormatText(" (of sensors that are sold: %dx%d)", sensor->first, sensor->second) : "";
+  return FormatText("at least %dx%d pixels", columns, rows) + known;
+}
+
 Finding Size(const EventCensus& e) {
   const std::string figure = FormatText("events up to (%d, %d); the rig file's camera has %dx%d", e.max_x(),
                                         e.max_y(), e.width(), e.height());
@@ -86,9 +95,8 @@ Finding Size(const EventCensus& e) {
             FormatText("%.1f %% of the events lie outside the camera of the rig file: it is another "
                        "camera's, or another resolution's.",
                        100 * out),
-            FormatText("use the rig file of this camera: at least width %d, height %d, with the intrinsics "
-                       "of that resolution",
-                       e.max_x() + 1, e.max_y() + 1)};
+            FormatText("use the rig file of this camera, %s, with the intrinsics of that resolution",
+                       AtLeast(e.max_x() + 1, e.max_y() + 1).c_str())};
   }
   std::int64_t inside = 0;
   const int w = e.width(), h = e.height();
@@ -114,8 +122,8 @@ Finding Size(const EventCensus& e) {
             FormatText("Events fill only the first %dx%d pixels of the %dx%d of the rig file: it is for "
                        "another resolution, or a region of interest is set.",
                        used_x, used_y, w, h),
-            FormatText("use a rig file with width %d, height %d and the intrinsics of that resolution",
-                       used_x, used_y)};
+            FormatText("use a rig file of this sensor, %s, with the intrinsics of that resolution",
+                       AtLeast(used_x, used_y).c_str())};
   }
   return Good("sensor-size", figure);
 }

@@ -152,7 +152,8 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
 // Why the newest keyframe's events do not count; empty where they do.
 std::string WindowTracker::WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality,
                                     double significance) const {
-  if (keyframe.n_events < options_.min_events) return "no events";
+  if (keyframe.n_events == 0) return "no events";
+  if (keyframe.n_events < options_.min_events) return "too few events";
   if (window_.nodes().back().points.size() < kMinPoints) return "no map points in view";
   if (!LiesOnEvents(quality, options_.failure.min_contrast, significance, kTrackingSignificance))
     return "the map does not lie on the events";

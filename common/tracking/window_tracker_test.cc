@@ -69,6 +69,16 @@ TEST_F(WindowTrackerTest, CoastsWithoutEventsUntilItHasLastedTooLong) {
   EXPECT_EQ(result.restart.T_map_body.p, window_.state().T_map_body.p);
 }
 
+TEST_F(WindowTrackerTest, AFewEventsAreNotNone) {
+  Start();
+  for (int k = 0; k < 5; ++k) Step(source_.room);
+  KeyframeInput keyframe = source_.Next(t_ += 25'000, source_.room);
+  keyframe.n_events = 7;
+  out_ = {};
+  const Eigen::Vector3d rate = keyframe.imu.back().gyro - source_.bias.gyro;
+  EXPECT_EQ(window_.Process(keyframe, rate, &out_).coasting, "too few events");
+}
+
 TEST_F(WindowTrackerTest, EventsTheMapDoesNotLieOnDoNotPull) {
   Start();
   for (int k = 0; k < 5; ++k) Step(source_.room);

@@ -6,6 +6,7 @@
 #include "common/config/rig_file.h"
 #include "common/config/settings_file.h"
 #include "common/config/settings_text.h"
+#include "tests/fuzz/choice.h"
 #include "tests/fuzz/temporary_file.h"
 
 namespace {
@@ -30,9 +31,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   try {
     const evit::fuzz::TemporaryFile file(data + 1, size - 1);
-    if (data[0] % 3 == 0) evit::LoadRig(file.path());
-    if (data[0] % 3 == 1) LoadTwice(file.path());
-    if (data[0] % 3 == 2) LoadAsBase(file.path());
+    const int choice = evit::fuzz::Choice(data[0], 3);
+    if (choice == 0) evit::LoadRig(file.path());
+    if (choice == 1) LoadTwice(file.path());
+    if (choice == 2) LoadAsBase(file.path());
   } catch (const std::runtime_error&) {
   }
   return 0;

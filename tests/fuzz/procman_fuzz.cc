@@ -6,6 +6,7 @@
 #include "common/bus/lcm_url.h"
 #include "procman/command_line.h"
 #include "procman/deployment.h"
+#include "tests/fuzz/choice.h"
 
 namespace {
 
@@ -22,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const std::string text(reinterpret_cast<const char*>(data + 1), size - 1);
   try {
-    switch (data[0] % 4) {
+    switch (evit::fuzz::Choice(data[0], 4)) {
       case 0:
         evit::procman::ParseDeployment(text, "fuzz");
         break;

@@ -3,10 +3,12 @@
 #include <functional>
 #include <stdexcept>
 
+#include "tests/fuzz/choice.h"
 #include "tests/fuzz/temporary_file.h"
 #include "tools/feed/feed_records.h"
 #include "tools/formats/aedat/aedat4_recording.h"
 #include "tools/formats/aedat/aedat_recording.h"
+#include "tools/formats/calibration_files/read_calibration.h"
 #include "tools/formats/hdf5/ecf_chunk.h"
 #include "tools/formats/import/ordered_events.h"
 #include "tools/formats/numpy/npy_recording.h"
@@ -15,6 +17,7 @@
 #include "tools/formats/ros/ros_recording.h"
 #include "tools/formats/ros2/mcap_bag.h"
 #include "tools/formats/tables/stream_tables.h"
+#include "tools/formats/tables/table_kind.h"
 
 namespace {
 
@@ -99,8 +102,15 @@ void Read(int which, const std::uint8_t* data, std::size_t size) {
       return ReadEcf(data, size);
     case 10: {
       NpyRecording recording(file.path());
+      if (!recording.has_events()) return;
       return ReadAll(&recording);
     }
+    case 11:
+      ReadCalibration({file.path()}, {346, 260, "left", evit::SE3()});
+      return;
+    case 12:
+      KindOfTable(file.path());
+      return;
     default:
       ReadRecords(data, size);
   }
@@ -111,7 +121,7 @@ void Read(int which, const std::uint8_t* data, std::size_t size) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   try {
-    Read(data[0] % 11, data + 1, size - 1);
+    Read(evit::fuzz::Choice(data[0], 13), data + 1, size - 1);
   } catch (const std::runtime_error&) {
   }
   return 0;

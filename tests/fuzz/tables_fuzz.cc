@@ -4,6 +4,7 @@
 
 #include "common/evaluation/covariance_file.h"
 #include "common/evaluation/trajectory.h"
+#include "tests/fuzz/choice.h"
 #include "tests/fuzz/temporary_file.h"
 #include "tools/formats/rpg/rpg_events.h"
 #include "tools/formats/rpg/rpg_tables.h"
@@ -48,7 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   try {
     const evit::fuzz::TemporaryFile file(data + 1, size - 1);
-    Read(data[0] % 7, file.path());
+    Read(evit::fuzz::Choice(data[0], 7), file.path());
   } catch (const std::runtime_error&) {
   }
   return 0;

@@ -48,7 +48,7 @@ struct KeyframeSource {
     KeyframeInput k;
     k.t = t + clock;
     k.seq = seq++;
-    k.n_events = seen_points.empty() ? 100 : 20000;
+    k.n_events = seen_points.empty() ? 0 : 20000;
     k.surface = synthetic::DrawSurface(settings, seen_points, motion.State(ToSeconds(t)).T_map_body);
     if (last > 0) k.imu = motion.Samples(last, t, bias);
     for (ImuSample& s : k.imu) s.t += clock;

@@ -114,4 +114,21 @@ Findings Examine(const Patient& patient, const std::function<void(double)>& prog
   return found;
 }
 
+std::string NotChecked(const Patient& patient) {
+  const auto missing = [](const std::string& what, const char* option) { return what + " (" + option + ")"; };
+  std::vector<std::string> all;
+  if (patient.map.empty()) all.push_back(missing("the map", "--map FILE"));
+  if (patient.truth.empty()) {
+    all.push_back(missing(patient.map.empty()
+                              ? "the clock and frame of known poses"
+                              : "whether extrinsics, clocks and the map's frame put the map on the events",
+                          "--truth TUM, known poses"));
+  }
+  if (!patient.map.empty() && patient.truth.empty() && !patient.start)
+    all.push_back(missing("what the start sees", "--initial-pose"));
+  std::string text;
+  for (const std::string& one : all) text += (text.empty() ? "" : "; ") + one;
+  return text;
+}
+
 }  // namespace evit::doctor

@@ -20,4 +20,8 @@ struct Patient {
 /// std::runtime_error where a file cannot be read, with its name and the remedy.
 diagnosis::Findings Examine(const Patient& patient, const std::function<void(double)>& progress);
 
+/// What Examine has no way to look at without the files that were not given, and the option for each; empty
+/// where nothing is missing.
+std::string NotChecked(const Patient& patient);
+
 }  // namespace evit::doctor

@@ -28,7 +28,7 @@ const char* Word(Severity severity) {
   return severity == Severity::kError ? "error" : severity == Severity::kWarning ? "warning" : "good";
 }
 
-void PrintJson(const Findings& findings) {
+void PrintJson(const Findings& findings, const std::string& not_checked) {
   nlohmann::json out = nlohmann::json::array();
   for (const Finding& f : findings) {
     out.push_back({{"check", f.check},
@@ -37,10 +37,10 @@ void PrintJson(const Findings& findings) {
                    {"what", f.what},
                    {"remedy", f.remedy}});
   }
-  std::printf("%s\n", nlohmann::json{{"findings", out}}.dump(2).c_str());
+  std::printf("%s\n", nlohmann::json{{"findings", out}, {"not_checked", not_checked}}.dump(2).c_str());
 }
 
-void PrintText(const Findings& findings) {
+void PrintText(const Findings& findings, const std::string& not_checked) {
   bool good = false;
   for (const Finding& f : findings) {
     if (f.severity == Severity::kGood) {
@@ -52,6 +52,7 @@ void PrintText(const Findings& findings) {
                   f.what.c_str(), f.figure.c_str(), f.remedy.c_str());
     }
   }
+  if (!not_checked.empty()) std::printf("\nNot checked: %s\n", not_checked.c_str());
 }
 
 void Examine(DoctorOptions* o) {
@@ -61,7 +62,8 @@ void Examine(DoctorOptions* o) {
     terminal::ProgressBar bar("examining");
     findings = doctor::Examine(o->patient, [&bar](double share) { bar.Show(share); });
   }
-  o->json ? PrintJson(findings) : PrintText(findings);
+  const std::string not_checked = doctor::NotChecked(o->patient);
+  o->json ? PrintJson(findings, not_checked) : PrintText(findings, not_checked);
   const Severity worst = findings.empty() ? Severity::kGood : findings.front().severity;
   if (worst != Severity::kGood) throw CLI::RuntimeError(worst == Severity::kError ? 2 : 3);
 }

@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -87,13 +89,18 @@ void Feed(const FeedCommand& o) {
         }
       });
   const Clock::time_point begin = Clock::now();
+  const bool tty = isatty(STDERR_FILENO) == 1;
+  Clock::time_point shown;
   std::fprintf(stderr, "evit feed: reading %s\n", input->name().c_str());
   try {
     feed::RunFeed(
         input.get(), &publisher, [&] { return stop.received(); },
         [&](const feed::FeedCounts& c) {
-          std::fprintf(stderr, "\r%lld events, %lld IMU samples", static_cast<long long>(c.events),
-                       static_cast<long long>(c.imu));
+          const Clock::time_point now = Clock::now();
+          if (!tty && now - shown < std::chrono::seconds(3)) return;
+          shown = now;
+          std::fprintf(stderr, tty ? "\r%lld events, %lld IMU samples" : "%lld events, %lld IMU samples\n",
+                       static_cast<long long>(c.events), static_cast<long long>(c.imu));
         });
     if (publisher.counts().events == 0) throw std::runtime_error(input->name() + ": sent no events");
     if (log) log->Close();
@@ -101,7 +108,7 @@ void Feed(const FeedCommand& o) {
     if (log) std::remove(part.c_str());
     throw;
   }
-  std::fputc('\n', stderr);
+  if (tty) std::fputc('\n', stderr);
   PrintCounts(publisher.counts(), std::chrono::duration<double>(Clock::now() - begin).count());
   if (bus && bus->send_errors() > 0)
     throw std::runtime_error(std::to_string(bus->send_errors()) +

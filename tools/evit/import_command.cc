@@ -62,6 +62,7 @@ void RunImport(const std::string& label, const formats::ImportTarget& target, co
   const StopSignals signals;
   std::signal(SIGPIPE, SIG_IGN);  // with `| head` the log is still written whole
   try {
+    std::fprintf(stderr, "reading %s\n", label.c_str());  // a bag is gone through before the first event
     terminal::ProgressBar bar("importing " + label);
     s = work([&](double share) {
       // Thrown, so that all that was begun is taken away on the way out.

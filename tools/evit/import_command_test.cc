@@ -52,8 +52,10 @@ std::string M3edFile(const TemporaryFolder& folder) {
   file.Put("ovc/imu/accel", H5T_IEEE_F64LE, Doubles{0, 0, 9.81, 0, 0, 9.81, 0, 0, 9.81}, 3);
   file.Put("ovc/imu/omega", H5T_IEEE_F64LE, Doubles{0, 0, 0.1, 0, 0, 0.1, 0, 0, 0.1}, 3);
   file.Put("ovc/imu/ts", H5T_STD_I64LE, Integers{0, 2500, 5000});
-  file.Put("Cn_T_C0", H5T_IEEE_F64LE, Doubles{1, 0, 0, -3, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, 16);
-  file.Put("ts", H5T_STD_I64LE, Integers{2500});
+  file.Put("Cn_T_C0", H5T_IEEE_F64LE, Doubles{1, 0, 0, -3, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,  //
+                                              1, 0, 0, -4, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+           16);
+  file.Put("ts", H5T_STD_I64LE, Integers{2500, 5000});
   return path;
 }
 
@@ -68,7 +70,7 @@ TEST_F(ImportCommandTest, ACalibrationBecomesARigFileAndTurnsTheTruthIntoTheImus
   EXPECT_DOUBLE_EQ(rig.T_marker_body.p.x(), 0.5);
   // The camera is at x = 3, the IMU half a metre further.
   const Trajectory truth = ReadTum(log_ + ".truth.tum");
-  ASSERT_EQ(truth.size(), 1U);
+  ASSERT_EQ(truth.size(), 2U);
   EXPECT_DOUBLE_EQ(truth[0].pose.p.x(), 3.5);
 }
 
@@ -91,7 +93,9 @@ TEST_F(ImportCommandTest, WhatIsNoRecordingIsNamedWithItsRemedy) {
       {"version https://git-lfs.github.com/spec/v1", "git lfs pull"},
       {"# .PCD v0.7\n", "is a map"},
       {" {\"value0\": 1}", "--calibration"},
-      {text + text, "--imu"}};
+      {text + text, "--imu"},
+      {"1600000000.0 7 8 1 33\n1600000000.1 8 9 0 44\n", "sed '1i t x y p other' FILE"},
+      {"0 12000 1600000000.0 7 8 1\n1 13000 1600000000.1 8 9 0\n", "is a table of 6 columns without names"}};
   for (const auto& [contents, remedy] : cases)
     EXPECT_THAT(Import(folder_.Write("a.raw", contents) + " --out " + log_, 1), HasSubstr(remedy));
 }

@@ -17,8 +17,9 @@ namespace evit::commands {
 namespace {
 
 void PrintFound(const std::string& path, const formats::RecordingInfo& info) {
-  std::printf("%s: %s, %s%s%dx%d\n", path.c_str(), info.format.c_str(), info.sensor.c_str(),
-              info.sensor.empty() ? "" : ", ", info.width, info.height);
+  std::printf("%s: %s, %s%s%dx%d%s\n", path.c_str(), info.format.c_str(), info.sensor.c_str(),
+              info.sensor.empty() ? "" : ", ", info.width, info.height,
+              info.measured ? " at least, by its events (--size WxH where you know it)" : "");
   std::fflush(stdout);
 }
 
@@ -120,13 +121,14 @@ void AddImportRecording(CLI::App* import) {
           "--t-body-camera", o->T_body_camera,
           "Camera in the body (IMU) frame, for --rig-out: \"x y z qx qy qz qw\" (default: the calibration's)")
       ->needs(calibration);
-  import->add_option("--imu", o->job.imu, "Another file with the IMU: a table, HDF5, a bag, ...");
+  import->add_option("--imu", o->job.imu,
+                     "Another file with the IMU: a table, HDF5, a bag, ...; none: no IMU");
   import->add_option("--imu-offset", o->job.imu_offset,
                      "Seconds to add to IMU stamps to get the clock of the events");
   import->add_flag("--align-clocks", o->job.align_clocks,
                    "Find that offset, up to 2 s around it, from the rotation that events and gyro show");
   import->add_option("--truth", o->job.truth,
-                     "Another file with the truth: a table (TUM, EuRoC, ...), HDF5, a bag");
+                     "Another file with the truth: a table (TUM, EuRoC, ...), HDF5, a bag; none: no truth");
   formats::StreamChoice& choice = o->job.choice;
   import->add_option("--events-topic", choice.events,
                      "Events to take where there are several: a bag's topic, a group of HDF5");

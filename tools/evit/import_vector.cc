@@ -17,15 +17,15 @@ void AddImportVector(CLI::App* import) {
   CLI::App* vector = import->add_subcommand("vector", "A sequence in the VECtor benchmark's own files");
   vector->add_option("DIR", o->folder, "Folder with NAME1.synced.left_event.hdf5, .imu.txt and .gt.txt")
       ->required();
-  vector->add_option("--sequence", o->name, "NAME, e.g. desk_normal")->required();
+  vector->add_option("--sequence", o->name, "NAME, e.g. desk_normal (default: the only one there)");
   vector->add_option("--rig", o->rig, "Calibration (default: config/vector/rig.textproto)");
   o->shared.AddTo(vector);
-  vector->footer("Example: evit import vector ~/vector/desk_normal --sequence desk_normal --out desk.lcmlog");
+  vector->footer("Example: evit import vector ~/vector/desk_normal --out desk.lcmlog");
   vector->callback([o] {
     formats::SequenceImport job;
     o->shared.Apply(&job);
     job.folder = o->folder;
-    job.name = o->name;
+    job.name = o->name.empty() ? formats::OnlySequence(o->folder) : o->name;
     job.rig = LoadRig(o->rig.empty() ? DataFile("config/vector/rig.textproto") : o->rig);
     RunImport(job.name, job, job.name + "1.synced.gt.txt",
               [&](const auto& progress) { return formats::ImportSequence(job, progress); });

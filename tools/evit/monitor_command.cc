@@ -54,6 +54,7 @@ void AddTopCommand(CLI::App* app) {
   auto o = std::make_shared<monitor::TopOptions>();
   CLI::App* command = app->add_subcommand("top", "Show a pipeline at work in the terminal");
   command->add_flag("--once", o->once, "One screen as plain text, then the end");
+  command->add_option("--pid", o->pid, "Process of the evit run or evit up to show, where several run here");
   command->add_option("--lcm-url", o->lcm_url, "Bus (default: that of the pipeline running here)");
   command->add_option("--prefix", o->prefix, "Prefix of all channels");
   command->footer("Example: evit top");

@@ -69,6 +69,68 @@ TEST_F(TopScreenTest, ShowsModePoseServicesAndChannels) {
   EXPECT_THAT(text, HasSubstr("BODY_POSE"));
 }
 
+TEST_F(TopScreenTest, WhatIsNotKnownIsNoZero) {
+  tracker_mode_t mode = Sample<tracker_mode_t>();
+  mode.mode = tracker_mode_t::BOOTSTRAPPING;
+  Send(channels_.tracker_mode, mode);
+  std::string text = screen_.Draw(100, 24, false);
+  EXPECT_THAT(text, HasSubstr("position -"));
+  EXPECT_THAT(text, HasSubstr("sigma -   points -"));
+  mode.mode = tracker_mode_t::TRACKING;
+  Send(channels_.tracker_mode, mode);
+  window_state_t window = Sample<window_state_t>();
+  window.n_points = 0;  // coasting
+  window.inlier_share = 0;
+  Send(channels_.window_state, window);
+  EXPECT_THAT(screen_.Draw(100, 24, false), HasSubstr("points -"));
+}
+
+TEST_F(TopScreenTest, SaysThatARunHasEnded) {
+  tracker_mode_t mode = Sample<tracker_mode_t>();
+  mode.mode = tracker_mode_t::TRACKING;
+  Send(channels_.tracker_mode, mode);
+  service_status_t status = Sample<service_status_t>();
+  for (const char* name : {"map_server", "window_optimizer"}) {
+    status.service = name;
+    status.state = "running";
+    Send(channels_.status, status);
+  }
+  status.service = "log_replay";  // done before the others
+  status.state = "finished";
+  Send(channels_.status, status);
+  EXPECT_THAT(screen_.Draw(100, 24, false), Not(HasSubstr("ENDED")));
+  for (const char* name : {"map_server", "window_optimizer"}) {
+    status.service = name;
+    ++status.epoch;
+    Send(channels_.status, status);
+  }
+  EXPECT_THAT(screen_.Draw(100, 24, false),
+              HasSubstr("ENDED  its services have finished; the last was: TRACKING"));
+}
+
+// Two deputies with the same commands, as of two pipelines with different prefixes on one bus.
+TEST_F(TopScreenTest, OtherPipelinesOnTheBusAreTold) {
+  service_status_t status = Sample<service_status_t>();
+  status.service = "window_optimizer";
+  Send(channels_.status, status);
+  for (const char* deputy : {"evit", "evitother/"}) {
+    procman_lcm::deputy_info_t info{};
+    info.deputy_id = deputy;
+    info.ncmds = 1;
+    info.cmds.resize(1);
+    info.cmds[0].cmd.command_id = "window_optimizer";
+    info.cmds[0].pid = 17;
+    info.cmds[0].mem_rss_bytes = deputy == std::string("evit") ? 10 << 20 : 70 << 20;
+    const std::vector<std::uint8_t> bytes = procman::EncodeProcman(info);
+    bus_->Publish(procman::kPmInfo, bytes.data(), bytes.size());
+    bus_->Poll(0);
+  }
+  const std::string text = screen_.Draw(100, 24, false);
+  EXPECT_THAT(text, HasSubstr("more pipelines on this bus (evitother/)"));
+  EXPECT_THAT(text, HasSubstr("    10 MB"));
+  EXPECT_THAT(text, Not(HasSubstr("    70 MB")));
+}
+
 TEST_F(TopScreenTest, FitsTheScreen) {
   tracker_mode_t mode = Sample<tracker_mode_t>();
   mode.reason = std::string(500, 'x');

@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <stdexcept>
 
 #include "common/bus/lcm_bus.h"
 #include "common/service/runner.h"
@@ -49,24 +48,14 @@ winsize ScreenSize() {
   return size;
 }
 
-void JoinPipeline(const std::string& lcm_url) {
-  if (!run::IsLocalBus(lcm_url)) return;
-  const auto running = run::FindRunning();
-  if (!running) {
-    throw std::runtime_error(
-        "neither `evit run` nor `evit up` is running on this host; give --lcm-url to reach another one");
-  }
-  run::JoinNetworkOf(*running);
-}
-
 }  // namespace
 
 void ShowTop(const TopOptions& options) {
-  JoinPipeline(options.lcm_url);
+  if (run::IsLocalBus(options.lcm_url)) run::JoinNetworkOf(run::ChooseRunning(options.pid));
   const auto bus = OpenLcmBus(ResolveLcmUrl(options.lcm_url));
   PipelineWatch watch(bus.get(), Channels(options.prefix));
   procman::Sheriff sheriff(bus.get());
-  TopScreen screen(&watch, &sheriff);
+  TopScreen screen(&watch, &sheriff, options.prefix);
   sheriff.Discover();
   const bool once = options.once || isatty(STDOUT_FILENO) == 0;
   const StopSignals signals;

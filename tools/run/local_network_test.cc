@@ -1,5 +1,6 @@
 #include "tools/run/local_network.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -128,8 +129,21 @@ TEST(LocalNetwork, RunFileNamesThisProcessWhileItLives) {
     ASSERT_TRUE(running.has_value());
     EXPECT_EQ(running->pid, getpid());
     EXPECT_EQ(running->logs, std::filesystem::absolute("some/logs"));
+    EXPECT_EQ(ChooseRunning(0).pid, getpid());
+    // Of two pipelines the user says which.
+    const std::filesystem::path second = folder / "evit" / ("run-" + std::to_string(getppid()));
+    std::ofstream(second) << getppid() << "\nother/logs\n";
+    EXPECT_EQ(FindAllRunning().size(), 2U);
+    EXPECT_THAT([] { ChooseRunning(0); },
+                ::testing::ThrowsMessage<std::runtime_error>(
+                    ::testing::AllOf(::testing::HasSubstr("--pid"), ::testing::HasSubstr("other/logs"),
+                                     ::testing::HasSubstr(std::to_string(getpid())))));
+    EXPECT_EQ(ChooseRunning(getppid()).logs, "other/logs");
+    EXPECT_THROW(ChooseRunning(1 << 30), std::runtime_error);
+    std::filesystem::remove(second);
   }
   EXPECT_FALSE(FindRunning());
+  EXPECT_THROW(ChooseRunning(0), std::runtime_error);
   EXPECT_FALSE(std::filesystem::exists(file));
   std::filesystem::remove_all(folder);
 }

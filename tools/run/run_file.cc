@@ -3,10 +3,13 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
+#include <utility>
 
 namespace evit::run {
 
@@ -35,9 +38,13 @@ RunFile::~RunFile() {
 }
 
 std::optional<RunningPipeline> FindRunning() {
+  const std::vector<RunningPipeline> all = FindAllRunning();
+  return all.empty() ? std::nullopt : std::optional(all.front());
+}
+
+std::vector<RunningPipeline> FindAllRunning() {
   std::error_code ignored;
-  std::optional<RunningPipeline> newest;
-  std::filesystem::file_time_type newest_time;
+  std::vector<std::pair<std::filesystem::file_time_type, RunningPipeline>> all;
   for (const auto& entry : std::filesystem::directory_iterator(RunFolder(), ignored)) {
     RunningPipeline found;
     std::ifstream file(entry.path());
@@ -48,12 +55,28 @@ std::optional<RunningPipeline> FindRunning() {
       std::filesystem::remove(entry.path(), ignored);
       continue;
     }
-    const auto time = std::filesystem::last_write_time(entry.path(), ignored);
-    if (newest && time < newest_time) continue;
-    newest = found;
-    newest_time = time;
+    all.emplace_back(std::filesystem::last_write_time(entry.path(), ignored), found);
   }
-  return newest;
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<RunningPipeline> pipelines;
+  for (auto& [time, pipeline] : all) pipelines.push_back(std::move(pipeline));
+  return pipelines;
+}
+
+RunningPipeline ChooseRunning(pid_t pid) {
+  const std::vector<RunningPipeline> all = FindAllRunning();
+  if (all.empty()) {
+    throw std::runtime_error(
+        "neither `evit run` nor `evit up` is running on this host; give --lcm-url to reach another one");
+  }
+  std::string list;
+  for (const RunningPipeline& pipeline : all) {
+    if (pipeline.pid == pid || (pid == 0 && all.size() == 1)) return pipeline;
+    list += (list.empty() ? "" : ", ") + std::to_string(pipeline.pid) + " (" + pipeline.logs + ")";
+  }
+  throw std::runtime_error(
+      (pid == 0 ? "several pipelines are running on this host" : "no pipeline has that process id") +
+      std::string("; choose one with --pid: ") + list);
 }
 
 }  // namespace evit::run

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace evit::run {
 
@@ -26,5 +27,12 @@ struct RunningPipeline {
   std::string logs;
 };
 std::optional<RunningPipeline> FindRunning();
+
+/// All of them, the newest first.
+std::vector<RunningPipeline> FindAllRunning();
+
+/// The one with this process id, or, for 0, the only one. Throws std::runtime_error where none is running, or
+/// listing them where there are several to choose from with --pid.
+RunningPipeline ChooseRunning(pid_t pid);
 
 }  // namespace evit::run

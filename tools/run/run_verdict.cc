@@ -58,18 +58,18 @@ double TrackedShare(const Trajectory& poses, double seconds) {
 
 std::string FailureOf(const report::Report& report, const std::string& reason, double tracked_share,
                       const Untimely& untimely) {
+  // The cause before what may have come of it.
+  if (const std::string channels = ForeignChannels(report); !channels.empty()) {
+    return "two senders on " + channels +
+           ": another driver or pipeline was on this bus, and what it sent is mixed into the result; stop "
+           "it, or give this run --prefix NAME/ or another port in --lcm-url";
+  }
   if (report.keyframes() == 0) return "no keyframe was tracked; " + reason;
   if (report.final_mode() != "TRACKING") return report.final_mode() + " at the end: " + reason;
   if (tracked_share < kMinTracked)
     return FormatText(
         "poses cover only %.0f %% of the time that was played; mode_changes in report.json say why",
         100 * tracked_share);
-  if (const std::string channels = ForeignChannels(report); !channels.empty()) {
-    return "two senders on " + channels +
-           ": another driver or pipeline was on this bus, and what it sent is mixed into the result; stop "
-           "it, or give "
-           "this run --prefix NAME/ or another port in --lcm-url";
-  }
   if (untimely.events_share > kMaxUntimely || untimely.imu_share > kMaxUntimely) {
     return FormatText(
         "%.0f %% of the events and %.0f %% of the IMU samples came too late or lie far ahead: their "

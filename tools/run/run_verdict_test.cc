@@ -54,6 +54,8 @@ TEST(RunVerdict, WhatASecondSenderSentSpoilsAResult) {
   EXPECT_EQ(FailureOf(report, "", 0.9, {}), "");
   (*service->mutable_counters())["EVENTS.two_senders"] = 3;
   EXPECT_THAT(FailureOf(report, "", 0.9, {}), HasSubstr("two senders on EVENTS"));
+  report.set_final_mode("LOST");  // as it may be because of that
+  EXPECT_THAT(FailureOf(report, "", 0.9, {}), HasSubstr("two senders on EVENTS"));
 }
 
 TEST(RunVerdict, PosesMoreThanHalfASecondApartDoNotCoverTheTimeBetween) {

@@ -42,6 +42,21 @@ std::string BagFiles::Names() const {
   return Join(names, ", ");
 }
 
+std::vector<BagPart> BagFiles::Parts() const {
+  const auto micros = [](const ros::Time& t) { return static_cast<Utime>(t.toNSec() / 1000); };
+  std::vector<BagPart> parts;
+  for (const auto& bag : bags_) {
+    BagPart part{bag->getFileName(), {}};
+    rosbag::View all(*bag);
+    for (const rosbag::ConnectionInfo* c : all.getConnections()) {
+      rosbag::View view(*bag, rosbag::TopicQuery(c->topic));
+      if (view.size() > 0) part.topics[c->topic] = {micros(view.getBeginTime()), micros(view.getEndTime())};
+    }
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
 std::string BagFiles::Topics() const {
   std::vector<std::string> topics;
   for (const auto& [topic, type] : types_) topics.push_back(topic + " (" + type + ")");

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/formats/ros/message_store.h"
+
 namespace rosbag {
 class Bag;
 }
@@ -29,6 +31,7 @@ class BagFiles {
 
   const std::vector<std::unique_ptr<rosbag::Bag>>& bags() const { return bags_; }
   const std::map<std::string, std::string>& types() const { return types_; }  // of each topic
+  std::vector<BagPart> Parts() const;                                         // what each file spans
   std::string Names() const;                                                  // of all files
   std::string Topics() const;                                                 // all topics with their types
 

@@ -5,6 +5,7 @@
 
 #include "tools/formats/bag/bag_events.h"
 #include "tools/formats/bag/ros_messages.h"
+#include "tools/formats/ros/one_recording.h"
 
 namespace evit::formats {
 namespace {
@@ -61,6 +62,7 @@ ImportSummary ImportBag(const BagImport& job, const std::function<void(double)>&
   const std::string imu_topic =
       Required(files.FindTopic(kImuTypes, job.imu_topic, "--imu-topic"), files, "IMU (sensor_msgs/Imu)");
   const std::string truth_topic = FindTruth(job, files);
+  RequireOneRecording(files.Parts(), {events_topic, imu_topic, truth_topic});
   ImportStreams streams = ReadStreams(job, files, imu_topic, truth_topic, progress);
   BagEvents events(files, events_topic, job.rig.camera.width, job.rig.camera.height);
   return ImportLog(job, &events, std::move(streams), progress);

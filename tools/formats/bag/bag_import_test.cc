@@ -106,6 +106,18 @@ TEST_F(BagImportTest, SeveralBagsAreMergedByTime) {
   ExpectAll();
 }
 
+TEST_F(BagImportTest, TheSameEventsTwiceAreRefused) {
+  job_.files = {Path("a.bag"), Path("b.bag")};
+  for (const std::string& file : job_.files) {
+    rosbag::Bag bag(file, rosbag::bagmode::Write);
+    RecordEvents(&bag, kProphesee, 0, made_.events.size());
+    RecordImu(&bag);
+  }
+  EXPECT_THAT([&] { ImportBag(job_, [](double) {}); },
+              ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("a.bag"), HasSubstr("b.bag"))));
+  EXPECT_FALSE(std::filesystem::exists(job_.out));
+}
+
 TEST_F(BagImportTest, TruthBecomesTheBodyInTheMap) {
   MakeBag();
   job_.rig.T_marker_body = {Eigen::Quaterniond::Identity(), {0, 0, 0.5}};

@@ -6,13 +6,6 @@
 #include <stdexcept>
 
 namespace evit::formats {
-namespace {
-
-// More than any driver sends at once; a forged length must not decide how much memory is reserved.
-constexpr std::uint32_t kMaxMessage = 1U << 28;  // bytes: 20 million events
-
-}  // namespace
-
 struct BagReader::Impl {
   rosbag::View view;
   rosbag::View::iterator at;

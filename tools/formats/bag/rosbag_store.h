@@ -21,6 +21,8 @@ class RosbagStore : public MessageStore {
   bool cdr() const override { return false; }
   const std::vector<RosTopic>& topics() const override { return topics_; }
   std::unique_ptr<MessagePass> Read(const std::set<std::string>& topics) const override;
+  std::size_t n_files() const override { return files_.bags().size(); }
+  std::vector<BagPart> Parts() const override { return files_.Parts(); }
 
  private:
   BagFiles files_;

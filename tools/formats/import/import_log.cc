@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "common/files/decimal_time.h"
 #include "common/imu/imu_plausibility.h"
@@ -71,6 +73,19 @@ void CheckImu(const ImportStreams& streams, Utime first_event) {
     throw std::runtime_error(streams.imu_name + ": ends before the first event" +
                              OtherClock(streams.imu.back().t, first_event));
   }
+}
+
+// When the truth begins and ends.
+using Span = std::optional<std::pair<Utime, Utime>>;
+
+void CheckTruth(const std::string& name, const Span& truth, Utime first, Utime last) {
+  if (!truth || (truth->first <= last && truth->second >= first)) return;
+  throw std::runtime_error((name.empty() ? "ground truth" : name) +
+                           ": none of its poses is of the time of the events (poses " +
+                           DecimalSeconds(truth->first) + " to " + DecimalSeconds(truth->second) +
+                           " s, events " + DecimalSeconds(first) + " to " + DecimalSeconds(last) +
+                           " s): it is of another sequence or clock; give the right one with --truth FILE, "
+                           "or --truth none");
 }
 
 // Samples and poses in order of time; too many that cannot be are an error.
@@ -143,6 +158,8 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* source, ImportS
     end = first + static_cast<Utime>(target.seconds->second * 1e6);
   }
   Clip(&streams.imu, begin, end);
+  Span truth;
+  if (!streams.truth.empty()) truth = {streams.truth.front().t, streams.truth.back().t};
   Clip(&streams.truth, begin, end);
   if (has_imu && streams.imu.size() < 2)
     throw std::runtime_error("the part asked for by --seconds holds no IMU samples");
@@ -183,6 +200,7 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* source, ImportS
       throw std::runtime_error(streams.imu_name + ": begins after the last event" +
                                OtherClock(streams.imu.front().t, first));
     }
+    CheckTruth(streams.truth_name, truth, first, last);
     writer.Close(has_imu ? std::max(last, streams.imu.back().t) : last);
     summary.n_packets = writer.n_packets();
   }

@@ -25,8 +25,9 @@ struct ImportTarget {
 /// The streams beside the events, whole.
 struct ImportStreams {
   std::vector<ImuSample> imu;
-  Trajectory truth;      // body in the map frame; may be empty
-  std::string imu_name;  // file or topic, for messages; empty where the recording has no IMU
+  Trajectory truth;        // body in the map frame; may be empty
+  std::string imu_name;    // file or topic, for messages; empty where the recording has no IMU
+  std::string truth_name;  // the same of the truth
   DropCounts dropped_imu, dropped_truth;
 };
 

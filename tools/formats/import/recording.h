@@ -13,6 +13,7 @@ struct RecordingInfo {
   std::string format;         // for people, e.g. "Metavision RAW, EVT3"
   std::string sensor;         // as the file names it; empty: it does not
   int width = 0, height = 0;  // pixels; 0: the file does not say
+  bool measured = false;      // the size is what the events need, not what the file says
 };
 
 /// A recording of some format, opened. The readers of one format each implement it.

@@ -1,9 +1,12 @@
 #include "tools/formats/numpy/npy_header.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <regex>
+
+#include "tools/formats/import/micros_per_unit.h"
 
 namespace evit::formats {
 namespace {
@@ -167,6 +170,17 @@ double NpyNumber(const NpyColumn& column, const std::uint8_t* at) {
   if (column.kind != 'f') return static_cast<double>(NpyInteger(column, at));
   return column.bytes == 4 ? static_cast<double>(As<float>(at, column.big_endian))
                            : As<double>(at, column.big_endian);
+}
+
+bool NpyTime(const NpyColumn& column, const std::uint8_t* at, TimeUnit unit, Utime* t) {
+  constexpr long double kLongest = 4e15L;  // us
+  // Whole numbers of other units are dates in ns at most, which a long double holds.
+  const long double number = column.kind != 'f' ? static_cast<long double>(NpyInteger(column, at))
+                                                : static_cast<long double>(NpyNumber(column, at));
+  const long double value = static_cast<long double>(MicrosPerUnit(unit)) * number;
+  if (!(std::abs(value) < kLongest)) return false;
+  *t = std::llround(value);
+  return true;
 }
 
 }  // namespace evit::formats

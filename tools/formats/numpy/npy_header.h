@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/files/decimal_time.h"
 #include "tools/formats/numpy/npy_input.h"
 
 namespace evit::formats {
@@ -36,5 +37,7 @@ NpyHeader ReadNpyHeader(NpyInput* input);
 /// A number of a row; whole numbers exactly (NpyInteger) where they are.
 std::int64_t NpyInteger(const NpyColumn& column, const std::uint8_t* at);
 double NpyNumber(const NpyColumn& column, const std::uint8_t* at);
+/// A stamp of this unit in us, rounded; false where it is not finite, or beyond any date.
+bool NpyTime(const NpyColumn& column, const std::uint8_t* at, TimeUnit unit, Utime* t);
 
 }  // namespace evit::formats

@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "tools/formats/import/event_filter.h"
-#include "tools/formats/import/micros_per_unit.h"
+#include "tools/formats/numpy/npy_imu.h"
 
 namespace evit::formats {
 namespace {
 
 constexpr std::uint64_t kPiece = 100'000;  // events
-constexpr long double kLongest = 4e15L;    // us: beyond any date
 
 class NpyEvents : public EventSource {
  public:
@@ -65,20 +64,15 @@ class NpyEvents : public EventSource {
       *t = NpyInteger(time.numbers, at);
       return true;
     }
-    // Whole numbers of other units are dates in ns at most, which a long double holds.
-    const long double value =
-        static_cast<long double>(MicrosPerUnit(unit_)) *
-        (time.numbers.kind != 'f' ? static_cast<long double>(NpyInteger(time.numbers, at))
-                                  : static_cast<long double>(NpyNumber(time.numbers, at)));
-    if (!(std::abs(value) < kLongest)) return false;
-    constexpr long double kFloatResolution = 1.2e-7L;  // of 32 bits
-    if (time.numbers.kind == 'f' && time.numbers.bytes < 8 && std::abs(value) * kFloatResolution >= 1) {
+    if (!NpyTime(time.numbers, at, unit_, t)) return false;
+    constexpr double kFloatResolution = 1.2e-7;  // of 32 bits
+    if (time.numbers.kind == 'f' && time.numbers.bytes < 8 &&
+        std::abs(static_cast<double>(*t)) * kFloatResolution >= 1) {
       throw std::runtime_error(
           name_ +
           ": holds stamps as 32-bit floats, which do not resolve a microsecond after 8 s: "
           "save them as int64 or float64");
     }
-    *t = std::llround(value);
     if (fields_[EventColumns::kNanoseconds].numbers.bytes > 0)
       *t += Whole(EventColumns::kNanoseconds, "nanoseconds", row) / 1000;
     return true;
@@ -109,6 +103,11 @@ class NpyEvents : public EventSource {
 
 std::string NamesOf(const NpyTable& table) {
   std::string names;
+  if (table.columns.size() > 4 && table.columns.front().numbers.name.empty()) {
+    return std::to_string(table.columns.size()) +
+           " numbers without names (of an array a whose first four columns are the events': "
+           "numpy.save('events.npy', a[:, :4]))";
+  }
   for (const NpyTable::Column& column : table.columns)
     names += (names.empty() ? "" : ", ") + (column.numbers.name.empty() ? "?" : column.numbers.name);
   return names;
@@ -131,9 +130,12 @@ NpyRecording::NpyRecording(const std::string& path, const std::string& requested
     columns_ = FindEventColumns(sample);
     found.push_back(std::move(table));
   }
+  ReadNpyImu(path, &streams_);
   if (choices.empty()) {
-    throw std::runtime_error(path + ": holds no events (t, x, y and p by name, or rows of these four), but " +
-                             (others.empty() ? "no array with rows" : others));
+    missing_ = path + ": holds no events (t, x, y and p by name, or rows of these four), but " +
+               (others.empty() ? "no array with rows" : others);
+    if (streams_.imu.empty()) throw std::runtime_error(missing_);
+    return;
   }
   if (found.size() != 1)
     throw std::runtime_error(path + ": choose the events to take with --events-topic: " + choices);
@@ -141,6 +143,7 @@ NpyRecording::NpyRecording(const std::string& path, const std::string& requested
 }
 
 RecordingInfo NpyRecording::info() const {
+  if (!has_events()) return {"numpy, IMU alone", "", 0, 0};
   RecordingInfo info{
       table_.name.empty() && !IsNpz(table_.path) ? "numpy array," : "numpy archive " + table_.name + ",", "",
       0, 0};
@@ -150,6 +153,7 @@ RecordingInfo NpyRecording::info() const {
 }
 
 std::unique_ptr<EventSource> NpyRecording::Events(int width, int height) {
+  if (!has_events()) throw std::runtime_error(missing_);
   return std::make_unique<NpyEvents>(table_, columns_, width, height);
 }
 

@@ -17,13 +17,17 @@ class NpyRecording : public Recording {
   static bool Recognises(const std::string& path) { return IsNpy(path) || IsNpz(path); }
 
   /// `requested`: of several in an archive, the array to take, or what is before the slash in the names of
-  /// its arrays. Throws std::runtime_error naming the file and what is wrong.
+  /// its arrays. Throws std::runtime_error naming the file and what is wrong. Without events there may still
+  /// be an IMU (ReadNpyImu); Events() then throws.
   explicit NpyRecording(const std::string& path, const std::string& requested = "");
   RecordingInfo info() const override;
   std::unique_ptr<EventSource> Events(int width, int height) override;
-  ImportStreams Streams() override { return {}; }
+  ImportStreams Streams() override { return streams_; }
+  bool has_events() const { return missing_.empty(); }
 
  private:
+  ImportStreams streams_;
+  std::string missing_;  // why there are no events
   NpyTable table_;
   EventColumns columns_;
 };

@@ -161,6 +161,60 @@ TEST(NpyRecording, ArchivesOfOneArrayOrOfOneForEachColumn) {
   EXPECT_EQ(AllEvents(&right, 640, 480).y[2], 20);
 }
 
+// Rows of a stamp in `unit` seconds, then three or six values that are x, y and z of gyro and accelerometer.
+std::string ImuRows(bool stamp, bool gyro, bool accel) {
+  std::string rows;
+  for (int k = 0; k < kEvents; ++k) {
+    if (stamp) Put(1.6e9 + 0.005 * k, &rows);
+    if (gyro)
+      for (const double v : {0.1, 0.2, 0.01 * k}) Put(v, &rows);
+    if (accel)
+      for (const double v : {0.5, 0.25, 9.8}) Put(v, &rows);
+  }
+  return rows;
+}
+
+void ExpectImu(const ImportStreams& streams, const std::string& path) {
+  EXPECT_THAT(streams.imu_name, HasSubstr(path));
+  ASSERT_EQ(streams.imu.size(), static_cast<std::size_t>(kEvents));
+  EXPECT_EQ(streams.imu[2].t, 1'600'000'000'010'000);
+  EXPECT_EQ(streams.imu[2].gyro, Eigen::Vector3d(0.1, 0.2, 0.02));
+  EXPECT_EQ(streams.imu[2].accel, Eigen::Vector3d(0.5, 0.25, 9.8));
+}
+
+TEST(NpyRecording, AnImuBesideTheEventsIsRead) {
+  const TemporaryFolder folder("numpy");
+  const std::string f8 = "'<f8'";
+  const std::pair<std::string, std::string> events{
+      "events", Npy("'<f8'", "(20, 4)", Rows<double, double, double>("txyp", 1e-6))};
+  const std::string stamp = Npy(f8, "(20,)", ImuRows(true, false, false)),
+                    gyro = Npy(f8, "(20, 3)", ImuRows(false, true, false)),
+                    accel = Npy(f8, "(20, 3)", ImuRows(false, false, true)),
+                    both = Npy(f8, "(20, 6)", ImuRows(false, true, true)),
+                    all = Npy(f8, "(20, 7)", ImuRows(true, true, true));
+  const std::vector<std::vector<std::pair<std::string, std::string>>> archives = {
+      {events, {"imu", all}},
+      {events, {"accel", accel}, {"gyro", gyro}, {"imu_ts", stamp}},
+      {events, {"imu/gyro", gyro}, {"imu/acc", accel}, {"imu/t", stamp}},
+      {events, {"imu_linear_acceleration", accel}, {"imu_angular_velocity", gyro}, {"imu_timestamp", stamp}},
+      {events, {"imu", both}, {"imu_t", stamp}}};
+  for (const auto& arrays : archives) {
+    const std::string path = Npz(folder, arrays, true);
+    SCOPED_TRACE(arrays.back().first + ", " + arrays[1].first);
+    ExpectEvents(path);
+    ExpectImu(NpyRecording(path).Streams(), path);
+  }
+  // By itself it is an IMU, for --imu.
+  const std::string alone = folder.Write("imu.npy", all);
+  NpyRecording imu(alone);
+  ExpectImu(imu.Streams(), alone);
+  EXPECT_THAT([&] { imu.Events(640, 480); }, ThrowsMessage<std::runtime_error>(HasSubstr("holds no events")));
+  // Which of two it is cannot be told.
+  const std::string two = Npz(folder, {events, {"imu", all}, {"imu2", all}}, false);
+  EXPECT_THAT([&] { NpyRecording{two}; },
+              ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("imu2"), HasSubstr("--imu"))));
+}
+
 TEST(NpyRecording, DamagedArchivesAreNamed) {
   const TemporaryFolder folder("numpy");
   const std::string whole =

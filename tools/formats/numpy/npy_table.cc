@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <initializer_list>
 #include <map>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace evit::formats {
 namespace {
@@ -20,6 +23,33 @@ NpyTable TableOf(const std::string& path, const std::string& array, const NpyHea
   return table;
 }
 
+// "imu_gyro", "events_t": what an archive without parts puts in front of names.
+std::string WithoutPrefix(const std::string& name, std::initializer_list<const char*> prefixes) {
+  for (const std::string prefix : prefixes) {
+    if (name.size() > prefix.size() && name.rfind(prefix, 0) == 0) return name.substr(prefix.size());
+  }
+  return name;
+}
+
+// The parts of "imu/gyro".
+std::pair<std::string, std::string> GroupAndName(const std::string& array) {
+  const std::size_t slash = array.rfind('/');
+  if (slash == std::string::npos) return {"", array};
+  return {array.substr(0, slash), array.substr(slash + 1)};
+}
+
+std::vector<std::string> ArraysOf(const std::string& path) {
+  return IsNpz(path) ? NamesInNpz(path) : std::vector<std::string>{""};
+}
+
+std::optional<NpyHeader> HeaderOf(const std::string& path, const std::string& array) {
+  try {
+    return ReadNpyHeader(Open(path, array).get());
+  } catch (const std::runtime_error&) {
+    return {};  // a single number, or text
+  }
+}
+
 std::string Word(const NpyColumn& column, const std::uint8_t* at) {
   if (column.kind != 'f') return std::to_string(NpyInteger(column, at));
   char text[400];
@@ -34,29 +64,52 @@ std::vector<NpyTable> FindNpyTables(const std::string& path) {
   std::vector<NpyTable> tables;
   std::map<std::string, NpyTable> groups;
   for (const std::string& array : NamesInNpz(path)) {
-    NpyHeader header;
-    try {
-      header = ReadNpyHeader(OpenInNpz(path, array).get());
-    } catch (const std::runtime_error&) {
-      continue;  // a single number, or text
-    }
-    if (!header.one_dimension) {
-      tables.push_back(TableOf(path, array, header));
+    std::optional<NpyHeader> header = HeaderOf(path, array);
+    if (!header) continue;
+    if (!header->one_dimension) {
+      tables.push_back(TableOf(path, array, *header));
       continue;
     }
-    const std::size_t slash = array.rfind('/');
-    const std::string group = slash == std::string::npos ? "" : array.substr(0, slash);
-    header.columns.front().name =
-        array.substr(slash == std::string::npos ? 0 : slash + 1) + header.columns.front().name;
+    const auto [group, name] = GroupAndName(array);
+    header->columns.front().name =
+        WithoutPrefix(name, {"events_", "event_", "ev_"}) + header->columns.front().name;
     NpyTable& table = groups.try_emplace(group, NpyTable{path, group, 0, {}}).first->second;
     // Events are the longest arrays; others count for something else.
-    if (header.rows > table.rows) table.columns.clear();
-    if (header.rows < table.rows) continue;
-    table.rows = header.rows;
-    table.columns.push_back({array, false, header.columns.front()});
+    if (header->rows > table.rows) table.columns.clear();
+    if (header->rows < table.rows) continue;
+    table.rows = header->rows;
+    table.columns.push_back({array, false, header->columns.front()});
   }
   for (auto& [name, table] : groups) tables.push_back(std::move(table));
   return tables;
+}
+
+std::vector<NpyTable> FindNpyImuTables(const std::string& path) {
+  std::vector<NpyTable> whole;
+  std::map<std::pair<std::string, std::uint64_t>, NpyTable> groups;  // by part and length
+  for (const std::string& array : ArraysOf(path)) {
+    const std::optional<NpyHeader> header = HeaderOf(path, array);
+    if (!header) continue;
+    const std::size_t n = header->columns.size();
+    if (n >= 7) whole.push_back(TableOf(path, array, *header));
+    if (n != 1 && n != 3 && n != 6) continue;
+    const auto [group, array_name] = GroupAndName(array);
+    const std::string name = WithoutPrefix(array_name, {"imu_", "imu0_"});
+    NpyTable& table =
+        groups.try_emplace({group, header->rows}, NpyTable{path, group, header->rows, {}}).first->second;
+    for (std::size_t k = 0; k < n; ++k) {
+      NpyColumn column = header->columns[k];
+      if (n == 1) column.name = name + column.name;
+      if (n == 3) column.name = name + "_" + "xyz"[k];
+      const NpyTable::Column placed{array, header->by_column, column};
+      // The stamp comes first, as in a table without names.
+      table.columns.insert(n == 1 ? table.columns.begin() : table.columns.end(), placed);
+    }
+  }
+  for (auto& [key, table] : groups) {
+    if (table.columns.size() >= 7) whole.push_back(std::move(table));
+  }
+  return whole;
 }
 
 TableSample SampleNpy(const NpyTable& table) {

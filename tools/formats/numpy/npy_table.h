@@ -26,6 +26,11 @@ struct NpyTable {
 /// latter. Throws std::runtime_error naming the file where it is damaged.
 std::vector<NpyTable> FindNpyTables(const std::string& path);
 
+/// What may be the IMU's among the arrays: of rows of seven numbers and more, first; then arrays of one
+/// length and one part of the archive, with a stamp and three or six numbers a row, named x, y and z where
+/// three.
+std::vector<NpyTable> FindNpyImuTables(const std::string& path);
+
 /// The first rows of a table as text has them.
 TableSample SampleNpy(const NpyTable& table);
 

@@ -9,11 +9,13 @@
 #include "tools/formats/alignment/clock_alignment.h"
 #include "tools/formats/alignment/event_flow.h"
 #include "tools/formats/hdf5/h5_recording.h"
-#include "tools/formats/recognition/recording_folder.h"
+#include "tools/formats/recognition/recording_files.h"
 #include "tools/formats/tables/stream_tables.h"
 
 namespace evit::formats {
 namespace {
+
+constexpr char kNone[] = "none";  // of a file's name: without that stream
 
 // The streams of another file: a table, HDF5, or a recording that has them.
 ImportStreams StreamsOf(const std::string& given, bool imu, const StreamChoice& choice) {
@@ -62,9 +64,10 @@ ImportSummary ImportRecording(const RecordingImport& given,
                               const std::function<void(const RecordingInfo&, SE3*)>& found,
                               const std::function<void(double)>& progress) {
   RecordingImport job = given;
-  if (job.paths.size() == 1 && std::filesystem::is_directory(job.paths.front()) &&
-      !IsRecording(job.paths.front())) {
-    const RecordingFiles files = FindRecording(job.paths.front(), job.imu, job.truth);
+  const bool folder = job.paths.size() == 1 && std::filesystem::is_directory(job.paths.front());
+  if (folder || job.paths.size() > 1) {
+    const RecordingFiles files = folder ? FindRecording(job.paths.front(), job.imu, job.truth)
+                                        : SortRecording(job.paths, job.imu, job.truth);
     job.paths = files.events;
     job.imu = files.imu;
     job.truth = files.truth;
@@ -75,17 +78,26 @@ ImportSummary ImportRecording(const RecordingImport& given,
     info.width = job.width;
     info.height = job.height;
   }
-  if (info.width == 0) MeasureSize(recording.get(), &info.width, &info.height);
+  if (info.width == 0) {
+    MeasureSize(recording.get(), &info.width, &info.height);
+    info.measured = true;
+  }
   found(info, &job.T_marker_body);
   ImportStreams streams = recording->Streams();
-  if (!job.imu.empty()) {
+  if (job.imu == kNone) {
+    streams.imu.clear();
+    streams.imu_name.clear();
+  } else if (!job.imu.empty()) {
     ImportStreams other = StreamsOf(job.imu, true, job.choice);
     streams.imu = std::move(other.imu);
     streams.imu_name = job.imu;
     streams.dropped_imu = other.dropped_imu;
   }
-  if (!job.truth.empty()) {
+  if (job.truth == kNone) {
+    streams.truth.clear();
+  } else if (!job.truth.empty()) {
     ImportStreams other = StreamsOf(job.truth, false, job.choice);
+    streams.truth_name = job.truth;
     streams.truth = std::move(other.truth);
     streams.dropped_truth = other.dropped_truth;
   }

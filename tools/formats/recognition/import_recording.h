@@ -17,7 +17,8 @@ struct RecordingImport : ImportTarget {
   std::vector<std::string> paths;  // files, or one folder
   int width = 0, height = 0;       // of the sensor; 0: as the recording says, or as its events show
   StreamChoice choice;
-  std::string imu, truth;     // files with these streams, in place of the recording's; empty: none
+  std::string imu, truth;     // files with these streams, in place of the recording's; empty: none; "none":
+                              // not even the recording's
   double imu_offset = 0;      // s to add to IMU stamps to get the events' clock
   bool align_clocks = false;  // find the offset around that by AlignClocks
   SE3 T_marker_body;          // from the truth's body to the IMU's

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
+#include "common/events/known_sensors.h"
 #include "tools/formats/aedat/aedat4_recording.h"
 #include "tools/formats/aedat/aedat_recording.h"
 #include "tools/formats/bag/rosbag_store.h"
@@ -54,9 +56,14 @@ std::unique_ptr<MessageStore> OpenBags(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file or folder");
   }
-  const bool is_file = std::filesystem::is_regular_file(paths.front());
-  if (is_file && RosbagStore::Recognises(paths.front())) return std::make_unique<RosbagStore>(paths);
-  return OpenRos2Bags(paths);
+  const auto is_ros1 = [](const std::string& path) {
+    return std::filesystem::is_regular_file(path) && RosbagStore::Recognises(path);
+  };
+  if (!is_ros1(paths.front())) return OpenRos2Bags(paths);
+  for (const std::string& path : paths) {
+    if (!is_ros1(path)) throw std::runtime_error(path + ": is no bag of ROS 1, unlike " + paths.front());
+  }
+  return std::make_unique<RosbagStore>(paths);
 }
 
 }  // namespace
@@ -67,7 +74,8 @@ std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths, 
                                           RosTopics{choice.events, choice.imu, choice.truth});
   if (H5Recording::Recognises(paths.front())) return std::make_unique<H5Recording>(paths, choice.events);
   if (paths.size() != 1)
-    throw std::runtime_error(paths[1] + ": a recording of the format of " + paths.front() + " is one file");
+    throw std::runtime_error(paths[1] + ": a recording of the format of " + paths.front() +
+                             " is one file; the IMU and truth of others are given with --imu and --truth");
   return OpenFile(paths.front(), choice.events);
 }
 
@@ -104,21 +112,15 @@ void MeasureSize(Recording* recording, int* width, int* height) {
   };
   *width = extent(columns);
   *height = extent(rows);
-  constexpr int kSensors[][2] = {{128, 128}, {240, 180}, {304, 240}, {320, 320},
-                                 {346, 260}, {640, 480}, {1280, 720}};
-  for (const auto& sensor : kSensors) {
-    if (*width == sensor[0] + 1 && *height == sensor[1] + 1 && columns[0] + rows[0] == 0) {
-      const std::string size = std::to_string(sensor[0]) + "x" + std::to_string(sensor[1]);
-      throw std::runtime_error(events->name() + ": columns and rows seem to be counted from 1, up to " +
-                               size + "; EVIT counts from 0: subtract 1 from both, or give --size " +
-                               std::to_string(*width) + "x" + std::to_string(*height) +
-                               " if the sensor is so large");
+  for (const auto& [w, h] : kKnownSensors) {
+    if (*width == w + 1 && *height == h + 1 && columns[0] + rows[0] == 0) {
+      throw std::runtime_error(
+          events->name() + ": columns and rows seem to be counted from 1, up to " + std::to_string(w) + "x" +
+          std::to_string(h) + "; EVIT counts from 0: subtract 1 from both, or give --size " +
+          std::to_string(*width) + "x" + std::to_string(*height) + " if the sensor is so large");
     }
-    if (*width > sensor[0] || *height > sensor[1]) continue;
-    *width = sensor[0];
-    *height = sensor[1];
-    return;
   }
+  if (const auto sensor = SmallestKnownSensor(*width, *height)) std::tie(*width, *height) = *sensor;
 }
 
 }  // namespace evit::formats

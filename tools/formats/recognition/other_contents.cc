@@ -8,6 +8,7 @@
 
 #include "common/files/table_reader.h"
 #include "common/files/table_sample.h"
+#include "tools/formats/import/event_columns.h"
 
 namespace evit::formats {
 namespace {
@@ -68,6 +69,39 @@ bool Has(std::string_view text, const Contents& contents) {
          text.substr(contents.at, contents.begin.size()) == contents.begin;
 }
 
+// Which columns of five or six may be those of events, with all others left out.
+std::string PossibleNames(const TableSample& sample) {
+  const std::size_t n = sample.rows.front().size();
+  for (unsigned others = 1U << n; others-- > 1;) {
+    TableSample four;
+    for (const auto& row : sample.rows) {
+      four.rows.emplace_back();
+      for (std::size_t k = 0; k < n && row.size() == n; ++k) {
+        if ((others >> k & 1U) == 0) four.rows.back().push_back(row[k]);
+      }
+    }
+    if (four.rows.front().size() != 4 || !FitsEvents(four)) continue;
+    const EventColumns columns = FindEventColumns(std::move(four));
+    constexpr const char* kNames[] = {"t", "x", "y", "p"};
+    std::string names;
+    for (std::size_t k = 0, event = 0; k < n; ++k) {
+      const bool other = (others >> k & 1U) != 0;
+      names += std::string(k > 0 ? " " : "") + (other ? "other" : kNames[columns.field[event]]);
+      event += other ? 0 : 1;
+    }
+    return names;
+  }
+  return "";
+}
+
+std::string OfUnnamed(const TableSample& sample) {
+  const std::string names = PossibleNames(sample), n = std::to_string(sample.rows.front().size());
+  if (names.empty()) return "is a table of " + n + " columns, none of which can be those of events (t x y p)";
+  return "is a table of " + n +
+         " columns without names, which may be events: name them in a first line, if " +
+         "they are these: sed '1i " + names + "' FILE > named.txt";
+}
+
 std::string OfText(const std::string& path, std::string_view text) {
   std::string begin(text.substr(0, 20));
   begin.erase(0, std::min(begin.size(), begin.find_first_not_of(" \t\r\n")));
@@ -80,6 +114,8 @@ std::string OfText(const std::string& path, std::string_view text) {
     const TableSample sample = SampleTable(path, "t x y p", 20);
     const std::size_t columns = sample.rows.empty() ? 0 : sample.rows.front().size();
     double value = 0;
+    if ((columns == 5 || columns == 6) && sample.head.empty() && ParseNumber(sample.rows.front()[0], &value))
+      return OfUnnamed(sample);
     if (columns >= 7 && ParseNumber(sample.rows.front()[1], &value))
       return "is a table of " + std::to_string(columns) +
              " columns; an IMU's is given with --imu, one of poses with --truth, beside a file of events";

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "common/time/utime.h"
 
 namespace evit::formats {
 
@@ -30,6 +33,17 @@ struct RosTopic {
   std::string name, type;  // type as ROS 1 writes it: package/Type
 };
 
+/// When messages of a topic were recorded, the first and the last one.
+struct TopicSpan {
+  Utime begin = 0, end = 0;
+};
+
+/// One file of a bag, and the topics that it holds messages of.
+struct BagPart {
+  std::string file;
+  std::map<std::string, TopicSpan> topics;
+};
+
 /// A bag of whatever container: what topics it has, and passes over them.
 class MessageStore {
  public:
@@ -39,6 +53,9 @@ class MessageStore {
   virtual bool cdr() const = 0;  // serialized by ROS 2's rules (aligned); otherwise by ROS 1's (packed)
   virtual const std::vector<RosTopic>& topics() const = 0;
   virtual std::unique_ptr<MessagePass> Read(const std::set<std::string>& topics) const = 0;
+  virtual std::size_t n_files() const { return 1; }
+  /// What each of its files spans; may go through all of them.
+  virtual std::vector<BagPart> Parts() const = 0;
 };
 
 /// No driver sends more at once; a forged length must not decide how much memory is reserved.

@@ -10,6 +10,7 @@
 #include "tools/formats/event_packet/event_packet_decoder.h"
 #include "tools/formats/import/event_filter.h"
 #include "tools/formats/ros/message_types.h"
+#include "tools/formats/ros/one_recording.h"
 #include "tools/formats/ros/topic_choice.h"
 
 namespace evit::formats {
@@ -89,6 +90,7 @@ RosRecording::RosRecording(std::unique_ptr<MessageStore> store, const RosTopics&
   imu_ = ChooseTopic(*store_, {kImuType}, topics.imu, "--imu-topic");
   truth_ =
       ChooseTopic(*store_, {std::begin(kPoseTypes), std::end(kPoseTypes)}, topics.truth, "--truth-topic");
+  if (store_->n_files() > 1) RequireOneRecording(store_->Parts(), {events_.name, imu_.name, truth_.name});
   Scan();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -37,11 +38,6 @@ class FolderPass : public MessagePass {
   bool cut_off_ = false;
 };
 
-// ros2 bag numbers its parts: name_0, name_1, ... name_10.
-bool NaturalLess(const std::string& a, const std::string& b) {
-  return a.size() != b.size() ? a.size() < b.size() : a < b;
-}
-
 std::unique_ptr<MessageStore> OpenFile(const std::string& path) {
   if (SqliteBag::Recognises(path)) return std::make_unique<SqliteBag>(path);
   if (McapBag::Recognises(path)) return std::make_unique<McapBag>(path);
@@ -51,6 +47,7 @@ std::unique_ptr<MessageStore> OpenFile(const std::string& path) {
 }  // namespace
 
 BagFolder::BagFolder(std::vector<std::unique_ptr<MessageStore>> parts) : parts_(std::move(parts)) {
+  SortByTime();
   std::map<std::string, std::string> types;
   for (const auto& part : parts_) {
     if (part->cdr() != cdr())
@@ -59,6 +56,22 @@ BagFolder::BagFolder(std::vector<std::unique_ptr<MessageStore>> parts) : parts_(
     for (const RosTopic& topic : part->topics()) types[topic.name] = topic.type;
   }
   for (const auto& [name, type] : types) topics_.push_back({name, type});
+}
+
+void BagFolder::SortByTime() {
+  std::vector<std::pair<Utime, std::size_t>> order;
+  for (const auto& part : parts_) {
+    Utime begin = std::numeric_limits<Utime>::max();
+    for (BagPart& file : part->Parts()) {
+      for (const auto& [topic, span] : file.topics) begin = std::min(begin, span.begin);
+      spans_.push_back(std::move(file));
+    }
+    order.emplace_back(begin, order.size());
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::unique_ptr<MessageStore>> sorted;
+  for (const auto& [begin, k] : order) sorted.push_back(std::move(parts_[k]));
+  parts_ = std::move(sorted);
 }
 
 std::string BagFolder::name() const {
@@ -81,7 +94,7 @@ std::unique_ptr<MessageStore> OpenRos2Bag(const std::string& path) {
     if (extension == ".zstd")
       throw std::runtime_error(entry.path().string() + ": is compressed as a file; run zstd -d on it first");
   }
-  std::sort(files.begin(), files.end(), NaturalLess);
+  std::sort(files.begin(), files.end());
   std::vector<std::unique_ptr<MessageStore>> parts;
   for (const std::string& file : files) {
     if (auto part = OpenFile(file)) parts.push_back(std::move(part));

@@ -9,7 +9,7 @@
 namespace evit::formats {
 
 /// The bags of one recording as one: the parts that ros2 bag splits a long one into, or files of different
-/// topics. Parts come one after the other in the order given.
+/// topics. Parts come one after the other in order of time.
 class BagFolder : public MessageStore {
  public:
   explicit BagFolder(std::vector<std::unique_ptr<MessageStore>> parts);
@@ -18,9 +18,14 @@ class BagFolder : public MessageStore {
   bool cdr() const override { return parts_.front()->cdr(); }
   const std::vector<RosTopic>& topics() const override { return topics_; }
   std::unique_ptr<MessagePass> Read(const std::set<std::string>& topics) const override;
+  std::size_t n_files() const override { return spans_.size(); }
+  std::vector<BagPart> Parts() const override { return spans_; }
 
  private:
+  void SortByTime();
+
   std::vector<std::unique_ptr<MessageStore>> parts_;
+  std::vector<BagPart> spans_;
   std::vector<RosTopic> topics_;
 };
 

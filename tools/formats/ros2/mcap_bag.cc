@@ -1,5 +1,6 @@
 #include "tools/formats/ros2/mcap_bag.h"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -84,7 +85,9 @@ class McapPass : public MessagePass {
           McapFields fields(record);
           const auto channel = channels_.find(fields.Number(2));
           if (channel == channels_.end()) continue;
-          fields.Take(4 + 8 + 8);  // sequence, times of recording and sending
+          fields.Number(4);  // sequence
+          recorded_ = static_cast<Utime>(fields.Number(8) / 1000);
+          fields.Number(8);  // time of sending
           message->topic = channel->second;
           message->size = fields.left();
           message->data = fields.Take(message->size);
@@ -98,11 +101,13 @@ class McapPass : public MessagePass {
   }
   double share() const override { return records_.file().share(); }
   bool cut_off() const override { return records_.cut_off(); }
+  Utime recorded() const { return recorded_; }  // of the last message, in us
 
  private:
   McapRecords records_;
   std::set<std::string> topics_;
   std::map<std::uint64_t, std::string> channels_;  // those asked for
+  Utime recorded_ = 0;
 };
 
 }  // namespace
@@ -134,6 +139,20 @@ McapBag::McapBag(const std::string& path) : path_(path) {
   if (ros1 && ros2)
     throw std::runtime_error(path + ": mixes messages of ROS 1 and ROS 2, which cannot be read");
   cdr_ = !ros1;
+}
+
+std::vector<BagPart> McapBag::Parts() const {
+  std::set<std::string> names;
+  for (const RosTopic& topic : topics_) names.insert(topic.name);
+  McapPass pass(path_, names);
+  BagPart part{path_, {}};
+  RosMessage message;
+  while (pass.Next(&message)) {
+    const Utime t = pass.recorded();
+    TopicSpan& span = part.topics.try_emplace(message.topic, TopicSpan{t, t}).first->second;
+    span = {std::min(span.begin, t), std::max(span.end, t)};
+  }
+  return {part};
 }
 
 std::unique_ptr<MessagePass> McapBag::Read(const std::set<std::string>& topics) const {

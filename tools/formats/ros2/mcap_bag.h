@@ -23,6 +23,7 @@ class McapBag : public MessageStore {
   bool cdr() const override { return cdr_; }
   const std::vector<RosTopic>& topics() const override { return topics_; }
   std::unique_ptr<MessagePass> Read(const std::set<std::string>& topics) const override;
+  std::vector<BagPart> Parts() const override;
 
  private:
   std::string path_;

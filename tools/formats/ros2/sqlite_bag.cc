@@ -126,6 +126,16 @@ SqliteBag::SqliteBag(const std::string& path) : path_(path) {
   }
 }
 
+std::vector<BagPart> SqliteBag::Parts() const {
+  Database db(path_);
+  db.Prepare(
+      "SELECT topics.name, min(timestamp), max(timestamp) FROM messages JOIN topics ON messages.topic_id = "
+      "topics.id GROUP BY topics.name");
+  BagPart part{path_, {}};
+  while (db.Step()) part.topics[db.Text(0)] = {db.Integer(1) / 1000, db.Integer(2) / 1000};
+  return {part};
+}
+
 std::unique_ptr<MessagePass> SqliteBag::Read(const std::set<std::string>& topics) const {
   return std::make_unique<SqlitePass>(path_, topics);
 }

@@ -15,6 +15,10 @@ struct SequenceImport : ImportTarget {
   Rig rig;             // T_marker_body turns the marker body's ground truth into the IMU's
 };
 
+/// The name of the only sequence in a folder. Throws std::runtime_error where there is none, or naming them
+/// where there are several.
+std::string OnlySequence(const std::string& folder);
+
 /// As ImportLog. An unknown name lists the sequences found.
 ImportSummary ImportSequence(const SequenceImport& job, const std::function<void(double)>& progress);
 

@@ -14,6 +14,7 @@
 #include "common/evaluation/trajectory.h"
 #include "common/files/decimal_time.h"
 #include "common/wire/event_wire.h"
+#include "tests/helpers/temporary_folder.h"
 #include "tools/formats/hdf5/event_file_writer.h"
 
 namespace evit::formats {
@@ -194,6 +195,17 @@ TEST_F(SequenceImportTest, WrongNameListsTheSequences) {
   job_.name = "desk";
   EXPECT_THAT([&] { Import(); },
               ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("desk"), HasSubstr("found there: made_up"))));
+}
+
+TEST_F(SequenceImportTest, TheOnlySequenceNeedsNoName) {
+  const TemporaryFolder folder("only_sequence");
+  EXPECT_THAT([&] { OnlySequence(folder.File("")); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("holds no sequence")));
+  folder.Write("desk_normal1.synced.left_event.hdf5", "");
+  EXPECT_EQ(OnlySequence(folder.File("")), "desk_normal");
+  folder.Write("sofa_fast1.synced.left_event.hdf5", "");
+  EXPECT_THAT([&] { OnlySequence(folder.File("")); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("--sequence: desk_normal, sofa_fast")));
 }
 
 TEST_F(SequenceImportTest, AnEventFarFromItsPlaceIsCountedAndDropped) {
