@@ -152,8 +152,9 @@ Finding HotPixels(const EventCensus& e) {
 
 // Pixels without an event among others that have many.
 Finding DeadPixels(const EventCensus& e) {
-  constexpr int kFewestBusy = 5;  // of 24 around
-  constexpr double kBusy = 12;    // events of each, mean: by chance none in 160,000 would then be silent
+  constexpr int kFewestBusy = 5;       // of 24 around
+  constexpr double kBusy = 12;         // events of each, mean: by chance none in 160,000 would then be silent
+  constexpr std::uint32_t kMost = 24;  // count of each: a hot pixel does not make its neighbours busy
   const int w = e.width(), h = e.height();
   std::int64_t judged = 0, dead = 0;
   for (int y = 2; y + 2 < h; ++y) {
@@ -162,7 +163,7 @@ Finding DeadPixels(const EventCensus& e) {
       for (int v = -2; v <= 2; ++v)
         for (int u = -2; u <= 2; ++u) {
           const std::uint32_t n = e.by_pixel()[static_cast<std::size_t>((y + v) * w + x + u)];
-          if (u != 0 || v != 0) around += n, busy += n > 0 ? 1 : 0;
+          if (u != 0 || v != 0) around += std::min(n, kMost), busy += n > 0 ? 1 : 0;
         }
       if (busy < kFewestBusy || static_cast<double>(around) < kBusy * static_cast<double>(busy)) continue;
       ++judged;

@@ -17,8 +17,8 @@
 
 namespace evit::test {
 
-/// A server of LCM's tcpq provider (one message: type, length of the channel, channel, length, bytes; words in
-/// network order) on a free port of this host, until Stop(): then all its connections are gone.
+/// A server of LCM's tcpq provider (one message: type, length of the channel, channel, length, bytes; words
+/// in network order) on a free port of this host, until Stop(): then all its connections are gone.
 class TcpqServer {
  public:
   TcpqServer() : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -119,9 +119,9 @@ class TcpqServer {
       if (in.size() < size) return false;
       ++n_messages_;
       for (const Client& other : clients_) {
-        const bool heard = std::any_of(other.channels.begin(), other.channels.end(), [&](const auto& pattern) {
-          return std::regex_match(channel, std::regex(pattern));
-        });
+        const bool heard =
+            std::any_of(other.channels.begin(), other.channels.end(),
+                        [&](const auto& pattern) { return std::regex_match(channel, std::regex(pattern)); });
         if (heard && other.fd >= 0) Write(other.fd, in.data(), size);
       }
     } else if (type == kSubscribe) {

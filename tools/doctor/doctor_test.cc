@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/diagnosis/event_checks.h"
 #include "tests/helpers/paths.h"
 #include "tests/helpers/temporary_folder.h"
 #include "tools/doctor/test_faults.h"
@@ -12,6 +13,7 @@ namespace {
 
 using diagnosis::Finding;
 using diagnosis::Severity;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 const Sample& GoodSample() {
@@ -65,6 +67,52 @@ TEST(DoctorTest, WithoutMapAndTruthARecordingHasNothingWrong) {
     if (map) patient.map = test::SourcePath("logs/sample_map.pcd");
     for (const Finding& f : Examine(patient, [](double) {}))
       EXPECT_EQ(f.severity, Severity::kGood) << f.check << ": " << f.what << " (" << f.figure << ")";
+  }
+}
+
+TEST(DoctorTest, SaysWhatItCouldNotCheck) {
+  Patient patient;
+  EXPECT_THAT(NotChecked(patient), AllOf(HasSubstr("--map"), HasSubstr("--truth")));
+  patient.map = "map.pcd";
+  EXPECT_THAT(NotChecked(patient), AllOf(HasSubstr("extrinsics"), HasSubstr("--initial-pose")));
+  patient.truth = "truth.tum";
+  EXPECT_EQ(NotChecked(patient), "");
+}
+
+// One pixel in 25 is hot, and of the others each third has fired once: none of the rest is dead for that.
+TEST(DoctorTest, AHotPixelDoesNotMakeItsNeighboursDead) {
+  constexpr int kSize = 64, kHot = 500;
+  diagnosis::EventCensus census(kSize, kSize);
+  EventArray events;
+  Utime t = 0;
+  for (int round = 0; round < kHot; ++round) {
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        if ((x % 5 == 2 && y % 5 == 2) || (round == 0 && (x + y) % 3 == 0))
+          events.push_back(t += 10, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), round % 2);
+      }
+    }
+  }
+  census.Add(events);
+  bool found = false;
+  for (const Finding& f : diagnosis::CheckEvents(census)) {
+    if (f.check != "dead-pixels") continue;
+    found = true;
+    EXPECT_EQ(f.severity, Severity::kGood) << f.figure;
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST(DoctorTest, ASizeToldFromEventsIsAtLeastThat) {
+  diagnosis::EventCensus census(640, 480);
+  EventArray events;
+  for (int k = 0; k < 200'000; ++k)
+    events.push_back(10 * k, static_cast<std::uint16_t>(k % 322), static_cast<std::uint16_t>(k / 7 % 243),
+                     k % 2);
+  census.Add(events);
+  for (const Finding& f : diagnosis::CheckEvents(census)) {
+    if (f.check == "sensor-size")
+      EXPECT_THAT(f.remedy, AllOf(HasSubstr("at least 322x243"), HasSubstr("346x260")));
   }
 }
 

@@ -1,5 +1,6 @@
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -56,9 +57,21 @@ void ImportOptions::Apply(formats::ImportTarget* target) const {
   if (!seconds.empty()) target->seconds = ParseSeconds(seconds);
 }
 
+// Said before a long recording is read.
+void RequireFolderOf(const std::string& out) {
+  const std::filesystem::path folder = std::filesystem::path(out).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+    throw std::runtime_error("--out " + out + ": there is no folder " + folder.string() + "; mkdir -p " +
+                             folder.string());
+  if (std::filesystem::is_directory(out))
+    throw std::runtime_error("--out " + out + ": is a folder; give the log a name, such as " +
+                             (std::filesystem::path(out) / "recording.lcmlog").lexically_normal().string());
+}
+
 void RunImport(const std::string& label, const formats::ImportTarget& target, const std::string& no_truth,
                const std::function<formats::ImportSummary(const std::function<void(double)>&)>& work) {
   formats::ImportSummary s;
+  RequireFolderOf(target.out);
   const StopSignals signals;
   std::signal(SIGPIPE, SIG_IGN);  // with `| head` the log is still written whole
   try {

@@ -94,10 +94,17 @@ TEST_F(ImportCommandTest, WhatIsNoRecordingIsNamedWithItsRemedy) {
       {"# .PCD v0.7\n", "is a map"},
       {" {\"value0\": 1}", "--calibration"},
       {text + text, "--imu"},
+      {std::string("12 34 56 78 1 2 3 4\n\0\1\2\3 5 6 7\n", 32), "cat PART"},
       {"1600000000.0 7 8 1 33\n1600000000.1 8 9 0 44\n", "sed '1i t x y p other' FILE"},
       {"0 12000 1600000000.0 7 8 1\n1 13000 1600000000.1 8 9 0\n", "is a table of 6 columns without names"}};
   for (const auto& [contents, remedy] : cases)
     EXPECT_THAT(Import(folder_.Write("a.raw", contents) + " --out " + log_, 1), HasSubstr(remedy));
+}
+
+TEST_F(ImportCommandTest, AFolderThatIsNotThereIsNamedBeforeAnythingIsRead) {
+  const std::string events = folder_.Write("e.txt", "0.1 1 1 1\n0.2 2 2 0\n");
+  EXPECT_THAT(Import(events + " --out " + folder_.File("none/a.lcmlog"), 1), HasSubstr("mkdir -p"));
+  EXPECT_THAT(Import(events + " --out " + folder_.File(""), 1), HasSubstr("recording.lcmlog"));
 }
 
 TEST_F(ImportCommandTest, TextsOfSeveralKindsAndEurocsFolders) {

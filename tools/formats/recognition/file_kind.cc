@@ -37,8 +37,7 @@ FileKind KindOfFile(const std::string& path) {
   if (RosbagStore::Recognises(path) || SqliteBag::Recognises(path) || McapBag::Recognises(path))
     return FileKind::kBag;
   if (H5Recording::Recognises(path)) return KindOfH5(path);
-  if (RawRecording::Recognises(path) || Aedat4Recording::Recognises(path) ||
-      AedatRecording::Recognises(path))
+  if (RawRecording::Recognises(path) || Aedat4Recording::Recognises(path) || AedatRecording::Recognises(path))
     return FileKind::kEvents;
   if (NpyRecording::Recognises(path)) return KindOfNumpy(path);
   switch (KindOfTable(path)) {

@@ -8,8 +8,8 @@ namespace evit::formats {
 /// IMU or truth alone; the others are text tables.
 enum class FileKind { kNone, kBag, kH5Events, kEvents, kStreams, kEventTable, kImuTable, kPoseTable };
 
-/// By its contents, whatever its name. Throws std::runtime_error naming the file where it is one of these, but
-/// damaged.
+/// By its contents, whatever its name. Throws std::runtime_error naming the file where it is one of these,
+/// but damaged.
 FileKind KindOfFile(const std::string& path);
 
 }  // namespace evit::formats

@@ -102,6 +102,10 @@ std::string OfUnnamed(const TableSample& sample) {
          "they are these: sed '1i " + names + "' FILE > named.txt";
 }
 
+bool IsBinary(std::string_view text) {
+  return std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < '\t'; });
+}
+
 std::string OfText(const std::string& path, std::string_view text) {
   std::string begin(text.substr(0, 20));
   begin.erase(0, std::min(begin.size(), begin.find_first_not_of(" \t\r\n")));
@@ -139,6 +143,11 @@ std::string OtherContents(const std::string& path) {
     if (Has(text, contents)) return kCompressed + std::string(contents.what);
   for (const Contents& contents : kOthers)
     if (Has(text, contents)) return contents.what;
+  if (IsBinary(text)) {
+    return "has no head of a format that is recognised; a later part of a file that was split is joined to "
+           "the "
+           "first one: cat PART... > FILE";
+  }
   return OfText(path, text);
 }
 

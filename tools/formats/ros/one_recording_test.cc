@@ -28,8 +28,8 @@ TEST(RequireOneRecording, PartsThatASplitLeavesBelongTogether) {
   RequireOneRecording({Part("b", "/events", 10.1, 20), Part("a", "/events", 0, 10)}, kTaken);
   RequireOneRecording({Part("a", "/events", 0, 10.2), Part("b", "/events", 10, 20)}, kTaken);
   // Streams of their own files: another topic may begin earlier and end later.
-  RequireOneRecording(
-      {Part("e", "/events", 0, 10), Part("i", "/imu", -5, 30), Part("p", "/pose", 2, 8)}, kTaken);
+  RequireOneRecording({Part("e", "/events", 0, 10), Part("i", "/imu", -5, 30), Part("p", "/pose", 2, 8)},
+                      kTaken);
   // What is not taken does not count, nor a file without messages.
   RequireOneRecording({Part("e", "/events", 0, 10), Part("o", "/other", 500, 600), {"empty", {}}}, kTaken);
 }

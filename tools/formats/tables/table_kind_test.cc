@@ -20,8 +20,8 @@ TEST(KindOfTable, IsToldByNamesAndValues) {
       {"timestamp,x,y,polarity\n1,2,3,1\n2,3,4,0\n", TableKind::kEvents},
       {Repeated("0.1 0.2 0.3 0.1 0.2 9.8"), TableKind::kImu},
       {Repeated("0.1 0.2 9.8 0.1 0.2 0.3"), TableKind::kImu},
-      {Repeated("0.1 0.2 0.3 0.1 0.2 9.8 36.5"), TableKind::kImu},           // a temperature
-      {Repeated("0.1 0.2 0.3 0.1 0.2 9.8 0 0 0 1"), TableKind::kImu},        // VECtor's, with an orientation
+      {Repeated("0.1 0.2 0.3 0.1 0.2 9.8 36.5"), TableKind::kImu},            // a temperature
+      {Repeated("0.1 0.2 0.3 0.1 0.2 9.8 0 0 0 1"), TableKind::kImu},         // VECtor's, with an orientation
       {"#t [ns],w_x,w_y,w_z,a_x,a_y,a_z\n1,0,0,0,0,0,0\n", TableKind::kImu},  // names say it
       {Repeated("1 2 3 0 0.6 0 0.8"), TableKind::kPoses},
       {Repeated("1 2 3 0 0.707 0 0.707 0.1 0.2"), TableKind::kPoses},
