@@ -144,9 +144,9 @@ NpyRecording::NpyRecording(const std::string& path, const std::string& requested
 
 RecordingInfo NpyRecording::info() const {
   if (!has_events()) return {"numpy, IMU alone", "", 0, 0};
-  RecordingInfo info{
-      table_.name.empty() && !IsNpz(table_.path) ? "numpy array," : "numpy archive " + table_.name + ",", "",
-      0, 0};
+  RecordingInfo info{std::string(IsNpz(table_.path) ? "numpy archive" : "numpy array") +
+                         (table_.name.empty() ? "" : " " + table_.name) + ",",
+                     "", 0, 0};
   constexpr const char* kNames[] = {" t", " x", " y", " p", " ns", " -"};
   for (std::size_t k = 0; k < columns_.n; ++k) info.format += kNames[columns_.field[k]];
   return info;

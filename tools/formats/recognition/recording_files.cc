@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <stdexcept>
 
+#include "common/text/words.h"
 #include "tools/formats/recognition/file_kind.h"
 #include "tools/formats/recognition/other_contents.h"
 
@@ -34,14 +36,17 @@ std::vector<fs::path> FilesBelow(const std::string& folder) {
 
 bool Contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
-bool IsText(const fs::path& file) {
-  const std::string extension = file.extension().string();
-  return extension == ".txt" || extension == ".csv" || extension == ".tum";
+bool HasExtension(const fs::path& file, std::initializer_list<const char*> extensions) {
+  const std::string extension = LowerCase(file.extension().string());
+  return std::any_of(extensions.begin(), extensions.end(), [&](const char* e) { return extension == e; });
 }
 
-bool IsPicture(const fs::path& file) {
-  const std::string extension = file.extension().string();
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".pgm";
+bool IsText(const fs::path& file) { return HasExtension(file, {".txt", ".csv", ".tsv", ".tum"}); }
+
+bool IsPicture(const fs::path& file) { return HasExtension(file, {".png", ".jpg", ".jpeg", ".pgm"}); }
+
+bool IsPacked(const fs::path& file) {
+  return HasExtension(file, {".gz", ".bz2", ".xz", ".zst", ".lz4", ".zip", ".7z", ".rar", ".tar", ".tgz"});
 }
 
 std::string List(const std::vector<std::string>& files) {
@@ -71,10 +76,13 @@ std::vector<std::string> EventsOf(const Sorted& sorted, const std::string& where
 
 // Text is known by its name, so that estimates beside a recording are not taken for its truth.
 // `others` is what only its contents tell.
-void SortText(const fs::path& file, Sorted* named, Sorted* others) {
-  const std::string name = file.filename().string(), path = file.string();
-  if (name == "events.txt" || name == "events.csv") return named->events.push_back(path);
-  if (Contains(name, "truth") || Contains(name, "mocap") || Contains(name, ".gt."))
+void SortText(const fs::path& file, const std::string& folder, Sorted* named, Sorted* others) {
+  const std::string path = file.string(), base = LowerCase(file.filename().string());
+  const std::string name = LowerCase(path.substr(folder.size()));  // EuRoC's say it in folders: imu0/data.csv
+  if (base == "events.txt" || base == "events.csv") return named->events.push_back(path);
+  if (Contains(name, "truth") || Contains(name, "mocap") || Contains(name, ".gt.") ||
+      Contains(name, "vicon") || Contains(name, "optitrack") || base.rfind("gt.", 0) == 0 ||
+      base.rfind("gt_", 0) == 0)
     return named->truth.push_back(path);
   if (Contains(name, "imu")) return named->imu.push_back(path);
   const FileKind kind = KindOfFile(path);
@@ -87,16 +95,18 @@ void SortText(const fs::path& file, Sorted* named, Sorted* others) {
 RecordingFiles FindRecording(const std::string& folder, const std::string& given_imu,
                              const std::string& given_truth) {
   Sorted sorted, named, others;
+  std::string packed;
   for (const fs::path& file : FilesBelow(folder)) {
     const std::string path = file.string();
     if (Contains(path.substr(folder.size()), "right") || IsPicture(file)) continue;
     if (file.extension() == ".zstd")
       throw std::runtime_error(path + ": is compressed as a file; run zstd -d on it first");
     if (IsText(file)) {
-      SortText(file, &named, &others);
+      SortText(file, folder, &named, &others);
       continue;
     }
     const FileKind kind = KindOfFile(path);
+    if (kind == FileKind::kNone && IsPacked(file) && packed.empty()) packed = path;
     if (kind == FileKind::kBag) sorted.bags.push_back(path);
     if (kind == FileKind::kH5Events || kind == FileKind::kEvents) sorted.events.push_back(path);
     if (kind == FileKind::kStreams) sorted.beside.push_back(path);
@@ -109,8 +119,11 @@ RecordingFiles FindRecording(const std::string& folder, const std::string& given
   const std::string where = folder + ": ";
   RecordingFiles found;
   found.events = EventsOf(sorted, where);
-  if (found.events.empty())
-    throw std::runtime_error(where + "holds no events in any format that is recognised; name the file");
+  if (found.events.empty()) {
+    const std::string other = packed.empty() ? "" : "; " + packed + ": " + OtherContents(packed);
+    throw std::runtime_error(where + "holds no events in any format that is recognised" +
+                             (other.empty() ? "; name the file" : other));
+  }
   found.events.insert(found.events.end(), sorted.beside.begin(), sorted.beside.end());
   found.imu = given_imu.empty() ? OnlyOne(sorted.imu, where, "the IMU's", "--imu") : given_imu;
   found.truth = given_truth.empty() ? OnlyOne(sorted.truth, where, "the truth", "--truth") : given_truth;

@@ -78,6 +78,22 @@ TEST_F(RecordingFilesTest, OfAFolderTextIsTakenByNameOrContents) {
   EXPECT_EQ(FindRecording(folder_.File("in")).truth, folder_.File("in/groundtruth.txt"));
 }
 
+TEST_F(RecordingFilesTest, NamesMayBeInAnyCaseAndInFolders) {
+  std::filesystem::create_directories(folder_.File("in/IMU0"));
+  std::filesystem::create_directories(folder_.File("in/state_GroundTruth0"));
+  const std::string events = Write("Events.TXT", kEvents), imu = Write("IMU0/data.CSV", kImu),
+                    truth = Write("state_GroundTruth0/data.csv", kPoses);
+  const RecordingFiles files = FindRecording(folder_.File("in"));
+  EXPECT_EQ(files.events, std::vector<std::string>{events});
+  EXPECT_EQ(files.imu, imu);
+  EXPECT_EQ(files.truth, truth);
+}
+
+TEST_F(RecordingFilesTest, APackedRecordingInAFolderIsNamedWithItsRemedy) {
+  Write("events.txt.gz", "\x1f\x8b\b....");
+  ExpectError([&] { FindRecording(folder_.File("in")); }, "events.txt.gz", "gunzip");
+}
+
 TEST_F(RecordingFilesTest, AFolderOfSeveralRecordingsIsRefused) {
   MakeH5(folder_.File("in/a.h5"));
   Write("b.raw", std::string("% evt 3.0\n") + std::string(4, '\0'));
