@@ -15,12 +15,17 @@ namespace {
 
 using Pairs = std::vector<TrajectoryPair>;
 
-// Spread of positions across their main direction must be more than this for an alignment by positions: noise
-// has as much.
-constexpr double kMinSpread = 0.01, kMinSpreadRatio = 0.02;  // m, and of the spread along it
+// Nor do positions that spread across by less than this share of what they do along.
+constexpr double kMinSpread = TrajectoryError::kMinSpread, kMinSpreadRatio = 0.02;
 
-// Whether positions say how to turn one trajectory onto the other.
-bool Spreads(const Pairs& pairs, SE3 TrajectoryPair::*side) {
+// Standard deviations of positions along their main direction and along the next one, m.
+struct Spread {
+  double along = 0, across = 0;
+  bool extended() const { return along > kMinSpread; }
+  bool planar() const { return across > kMinSpread && across > kMinSpreadRatio * along; }
+};
+
+Spread SpreadOf(const Pairs& pairs, SE3 TrajectoryPair::*side) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const TrajectoryPair& p : pairs) mean += (p.*side).p;
   mean /= static_cast<double>(pairs.size());
@@ -29,9 +34,7 @@ bool Spreads(const Pairs& pairs, SE3 TrajectoryPair::*side) {
     covariance += ((p.*side).p - mean) * ((p.*side).p - mean).transpose() / static_cast<double>(pairs.size());
   const Eigen::Vector3d variances =  // ascending
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
-  const double across = std::sqrt(std::max(0.0, variances[1])),
-               along = std::sqrt(std::max(0.0, variances[2]));
-  return across > kMinSpread && across > kMinSpreadRatio * along;
+  return {std::sqrt(std::max(0.0, variances[2])), std::sqrt(std::max(0.0, variances[1]))};
 }
 
 // What the estimate is moved by: scaled, then T_truth_estimate.
@@ -99,9 +102,17 @@ TrajectoryError AbsoluteError(const Trajectory& truth, const Trajectory& estimat
   const Pairs pairs = MakePairs(truth, estimate);
   TrajectoryError error;
   error.n_pairs = static_cast<int>(pairs.size());
-  error.determined = !ByPositions(alignment) ||
-                     (Spreads(pairs, &TrajectoryPair::truth) && Spreads(pairs, &TrajectoryPair::estimate));
-  if (error.scored()) error = ErrorOf(pairs, Align(pairs, alignment));
+  if (ByPositions(alignment) && !pairs.empty()) {
+    const Spread truth_spread = SpreadOf(pairs, &TrajectoryPair::truth),
+                 spread = SpreadOf(pairs, &TrajectoryPair::estimate);
+    error.oriented = truth_spread.planar() && spread.planar();
+    error.scaled = alignment != Alignment::kScaled || (truth_spread.extended() && spread.extended());
+  }
+  if (error.scored()) {
+    const bool oriented = error.oriented;
+    error = ErrorOf(pairs, Align(pairs, alignment));
+    error.oriented = oriented;
+  }
   error.coverage = Coverage(truth, estimate);
   return error;
 }

@@ -7,8 +7,7 @@ namespace evit {
 enum class Alignment {
   kNone,       // map frame as it is
   kFirstPair,  // SE(3) of the first pair (the paper's protocol)
-  kUmeyama,    // least-squares SE(3) over all pairs (no scale); not determined by a straight line or a
-               // standstill
+  kUmeyama,    // least-squares SE(3) over all pairs (no scale)
   kScaled,     // the same with a scale, Sim(3): what is left of the error where the map's scale is off
 };
 
@@ -22,11 +21,15 @@ struct TrajectoryError {
   double position_max = 0;      // m
   double orientation_max = 0;   // rad
   double coverage = 0;          // 0..1: share of the truth's time span that the estimate reaches
-  bool determined = true;       // false: the positions do not say how to align (Alignment::kUmeyama)
+  bool scaled = true;           // false: positions on one spot do not say which scale (Alignment::kScaled)
+  // False: positions on a straight line, or on one spot, leave the turn of an alignment by positions open.
+  // What is left of the position error is still one figure; an orientation error there is none.
+  bool oriented = true;
 
-  /// Whether the figures mean something: enough pairs, and an alignment that these determine.
-  bool scored() const { return n_pairs >= kMinPairs && determined; }
+  /// Whether the position's figures mean something: enough pairs, and an alignment that these determine.
+  bool scored() const { return n_pairs >= kMinPairs && scaled; }
   static constexpr int kMinPairs = 3;
+  static constexpr double kMinSpread = 0.01;  // m, rms: positions that spread by less do not tell a turn
 };
 TrajectoryError AbsoluteError(const Trajectory& truth, const Trajectory& estimate, Alignment alignment);
 

@@ -80,8 +80,8 @@ TEST(TrajectoryPairs, RelativeErrorOfSlowTruth) {
   EXPECT_LT(error.position_rmse, 1e-9);
 }
 
-// Positions on a line leave the turn about it open; the alignment found was one of many.
-TEST(UmeyamaAlignment, IsNotDeterminedByLineStandstillOrTwoPairs) {
+// Positions on a line leave the turn about it open: an alignment that was found was one of many.
+TEST(UmeyamaAlignment, HasNoOrientationErrorOnALineOrASpotAndNoFigureOfTwoPairs) {
   Trajectory line, still, bent;
   for (int k = 0; k <= 100; ++k) {
     const Utime t = Utime{50'000} * k;
@@ -91,13 +91,30 @@ TEST(UmeyamaAlignment, IsNotDeterminedByLineStandstillOrTwoPairs) {
     bent.push_back({t, {Eigen::Quaterniond::Identity(), {0.02 * k, 0.2 * std::sin(0.1 * k), 0}}});
   }
   for (const Trajectory* flat : {&line, &still}) {
-    EXPECT_FALSE(AbsoluteError(*flat, *flat, Alignment::kUmeyama).scored());
-    EXPECT_FALSE(AbsoluteError(*flat, bent, Alignment::kUmeyama).scored());
-    EXPECT_FALSE(AbsoluteError(bent, *flat, Alignment::kUmeyama).scored());
-    EXPECT_TRUE(AbsoluteError(*flat, *flat, Alignment::kFirstPair).scored());
+    for (const auto& [truth, estimate] : {std::pair(*flat, *flat), {*flat, bent}, {bent, *flat}}) {
+      const TrajectoryError error = AbsoluteError(truth, estimate, Alignment::kUmeyama);
+      EXPECT_TRUE(error.scored());
+      EXPECT_FALSE(error.oriented);
+    }
+    EXPECT_TRUE(AbsoluteError(*flat, *flat, Alignment::kFirstPair).oriented);
   }
-  EXPECT_TRUE(AbsoluteError(bent, bent, Alignment::kUmeyama).scored());
+  EXPECT_TRUE(AbsoluteError(bent, bent, Alignment::kUmeyama).oriented);
   EXPECT_FALSE(AbsoluteError({bent[0], bent[50]}, {bent[0], bent[50]}, Alignment::kUmeyama).scored());
+  EXPECT_TRUE(AbsoluteError(line, line, Alignment::kScaled).scored());
+  EXPECT_FALSE(AbsoluteError(still, still, Alignment::kScaled).scored());
+}
+
+// Turned about its own line by any angle, the line lies on itself: the position error is one figure.
+TEST(UmeyamaAlignment, OfALineLeavesItsPositionError) {
+  Trajectory truth, estimate;
+  const SE3 move(Eigen::Quaterniond(Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized())), {4, 5, 6});
+  for (int k = 0; k <= 100; ++k) {
+    const Eigen::Vector3d p(0.02 * k, 0, 0);
+    truth.push_back({Utime{50'000} * k, {Eigen::Quaterniond::Identity(), p}});
+    const Eigen::Vector3d off(0, k % 2 == 0 ? 0.003 : -0.003, 0);
+    estimate.push_back({Utime{50'000} * k, move * SE3(Eigen::Quaterniond::Identity(), p + off)});
+  }
+  EXPECT_NEAR(AbsoluteError(truth, estimate, Alignment::kUmeyama).position_rmse, 0.003, 1e-4);
 }
 
 }  // namespace

@@ -30,11 +30,14 @@ constexpr Row kRows[] = {{"none", Alignment::kNone},
 
 nlohmann::json ToJson(const TrajectoryError& e) {
   if (!e.scored()) return nullptr;
+  const auto degrees = [&e](double angle) {
+    return e.oriented ? nlohmann::json(kDegreesPerRadian * angle) : nlohmann::json();
+  };
   return {{"pairs", e.n_pairs},
           {"position_rmse_cm", 100 * e.position_rmse},
-          {"orientation_rmse_deg", kDegreesPerRadian * e.orientation_rmse},
+          {"orientation_rmse_deg", degrees(e.orientation_rmse)},
           {"position_max_cm", 100 * e.position_max},
-          {"orientation_max_deg", kDegreesPerRadian * e.orientation_max}};
+          {"orientation_max_deg", degrees(e.orientation_max)}};
 }
 
 nlohmann::json ToJson(const Nees& nees) {
@@ -52,6 +55,8 @@ nlohmann::json ToJson(const Consistency& c) {
 void PrintCell(const TrajectoryError& e) {
   if (!e.scored()) {
     std::printf("  %16s", "-");
+  } else if (!e.oriented) {
+    std::printf("  %7.2f / %6s", 100 * e.position_rmse, "-");
   } else {
     std::printf("  %7.2f / %6.2f", 100 * e.position_rmse, kDegreesPerRadian * e.orientation_rmse);
   }
@@ -110,11 +115,11 @@ void Evaluate(const EvalOptions& o) {
       PrintCell(MilestoneError(truth, estimate, row.alignment, share));
     std::printf("\n");
   }
-  if (!AbsoluteError(truth, estimate, Alignment::kUmeyama).determined) {
+  if (!AbsoluteError(truth, estimate, Alignment::kUmeyama).oriented) {
     std::printf(
-        "Umeyama, with scale or without, is not determined: positions on a straight line, or on one spot, do "
-        "not say how to turn "
-        "the estimate\n");
+        "no orientation error after an alignment by positions: they lie on a straight line, or on one spot, "
+        "within %.0f cm, and leave the turn about it open\n",
+        100 * TrajectoryError::kMinSpread);
   }
   std::printf("\nlargest error (no alignment): %.2f cm, %.2f deg\n", 100 * whole.position_max,
               kDegreesPerRadian * whole.orientation_max);

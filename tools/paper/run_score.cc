@@ -80,7 +80,8 @@ RunScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estimate, st
   for (std::size_t a = 0; a < kAlignments.size(); ++a) {
     for (std::size_t m = 0; m < kMilestones.size(); ++m) {
       const TrajectoryError e = MilestoneError(truth, tracked, kAlignments[a], kMilestones[m]);
-      if (e.scored()) score.ate[a][m] = Ate{100 * e.position_rmse, kDegreesPerRadian * e.orientation_rmse};
+      if (e.scored() && e.oriented)
+        score.ate[a][m] = Ate{100 * e.position_rmse, kDegreesPerRadian * e.orientation_rmse};
     }
   }
   score.tracked = AbsoluteError(truth, tracked, Alignment::kNone).coverage;

@@ -71,14 +71,14 @@ void FillErrors(const Trajectory& truth, const Trajectory& estimate, report::Rep
   for (const auto& row : {std::pair("none", Alignment::kNone), std::pair("first pair", Alignment::kFirstPair),
                           std::pair("umeyama", Alignment::kUmeyama)}) {
     const TrajectoryError all = AbsoluteError(truth, estimate, row.second);
-    if (!all.scored()) continue;
+    if (!all.scored() || !all.oriented) continue;
     report::Milestones* out = report->add_ate();
     out->set_alignment(row.first);
     Fill(all, out->mutable_all());
     const auto milestone = [&](double share) { return MilestoneError(truth, estimate, row.second, share); };
-    if (const auto e = milestone(0.3); e.scored()) Fill(e, out->mutable_at_30_percent());
-    if (const auto e = milestone(0.5); e.scored()) Fill(e, out->mutable_at_50_percent());
-    if (const auto e = milestone(1.0); e.scored()) Fill(e, out->mutable_at_100_percent());
+    if (const auto e = milestone(0.3); e.scored() && e.oriented) Fill(e, out->mutable_at_30_percent());
+    if (const auto e = milestone(0.5); e.scored() && e.oriented) Fill(e, out->mutable_at_50_percent());
+    if (const auto e = milestone(1.0); e.scored() && e.oriented) Fill(e, out->mutable_at_100_percent());
   }
 }
 
