@@ -55,7 +55,7 @@ TEST(GradientPoints, LieOnTheWallsWithTheirGradient) {
   test::Room room;
   room.T_map_room = {ExpSO3({0.4, -0.2, 1.2}), {-7, 2, 4}};
   const SE3 T_camera = room.T_map_room * SE3(ExpSO3({0.6, 0.1, -0.2}), {0.2, 0.1, 0}) * test::BodyCamera();
-  const MapView view = room.See(ViewCamera(test::EventCamera(640, 480), 0.1), T_camera);
+  const PhotometricView view = room.See(ViewCamera(test::EventCamera(640, 480), 0.1), T_camera);
   for (const int level : {0, 1}) {
     const auto points = FindGradientPoints(view, level, 0, 0.05, 2000);
     ASSERT_GT(points.size(), 900u);
@@ -83,7 +83,7 @@ TEST(GradientPoints, LieOnTheWallsWithTheirGradient) {
 }
 
 TEST(GradientPoints, WhereNothingIsSeenThereIsNoEdge) {
-  MapView view;
+  PhotometricView view;
   view.query.camera = ViewCamera(test::EventCamera(), 0);
   view.log_intensity.assign(160 * 120, -1);
   view.inverse_depth.assign(160 * 120, 0.5F);

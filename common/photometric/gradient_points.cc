@@ -40,7 +40,7 @@ cv::Mat BlurSeen(const cv::Mat& log_intensity, const cv::Mat& inverse_depth, dou
 
 }  // namespace
 
-std::vector<GradientPoint> FindGradientPoints(const MapView& view, int level, double blur_sigma,
+std::vector<GradientPoint> FindGradientPoints(const PhotometricView& view, int level, double blur_sigma,
                                               double min_gradient, int max_points) {
   const Camera& camera = view.query.camera;
   cv::Mat light =

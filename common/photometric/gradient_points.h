@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "common/photometric/map_view.h"
+#include "common/photometric/photometric_view.h"
 
 namespace evit {
 
@@ -16,7 +16,7 @@ struct GradientPoint {
 /// Of a view made coarser `level` times (2x2 pixels into one) and blurred by `blur_sigma` of its pixels:
 /// pixels with at least `min_gradient` (log intensity per pixel of that level), a regular subset of at most
 /// `max_points` of them. Beside a jump of depth the nearer surface counts: its border is what moves.
-std::vector<GradientPoint> FindGradientPoints(const MapView& view, int level, double blur_sigma,
+std::vector<GradientPoint> FindGradientPoints(const PhotometricView& view, int level, double blur_sigma,
                                               double min_gradient, int max_points);
 
 }  // namespace evit

@@ -54,7 +54,7 @@ double ImageSpeed(const PhotometricScene& scene, const SE3& pose, const Twist& t
 PhotometricSolver::PhotometricSolver(const Rig& rig, const PhotometricOptions& options)
     : T_camera_body_(rig.T_body_camera.Inverse()), camera_(rig.camera), options_(options) {}
 
-PhotometricSolution PhotometricSolver::Solve(const PhotometricFrame& frame, const MapView& view,
+PhotometricSolution PhotometricSolver::Solve(const PhotometricFrame& frame, const PhotometricView& view,
                                              const SE3& expected, const Twist& motion) const {
   const double seconds = ToSeconds(frame.end - frame.begin);
   const EventImage events(frame.counts, options_.contrast_threshold, options_.blur_sigma_px, options_.levels);
@@ -86,7 +86,7 @@ PhotometricSolution PhotometricSolver::Solve(const PhotometricFrame& frame, cons
   return solution;
 }
 
-std::vector<GradientPoint> PhotometricSolver::PointsInImage(const MapView& view, int level,
+std::vector<GradientPoint> PhotometricSolver::PointsInImage(const PhotometricView& view, int level,
                                                             const SE3& expected) const {
   const SE3 T = T_camera_body_ * expected.Inverse();
   std::vector<GradientPoint> points;

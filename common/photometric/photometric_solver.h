@@ -1,10 +1,10 @@
 #pragma once
 
 #include "common/geometry/rig.h"
-#include "common/photometric/map_view.h"
 #include "common/photometric/photometric_frame.h"
 #include "common/photometric/photometric_options.h"
 #include "common/photometric/photometric_term.h"
+#include "common/photometric/photometric_view.h"
 
 namespace evit {
 
@@ -26,11 +26,11 @@ class PhotometricSolver {
 
   /// `expected`: pose when the events were caused. `motion`: velocity (m/s) and angular rate (rad/s) of the
   /// body, map frame. Where the view shows too little: what was expected, with quality 0.
-  PhotometricSolution Solve(const PhotometricFrame& frame, const MapView& view, const SE3& expected,
+  PhotometricSolution Solve(const PhotometricFrame& frame, const PhotometricView& view, const SE3& expected,
                             const Twist& motion) const;
 
  private:
-  std::vector<GradientPoint> PointsInImage(const MapView& view, int level, const SE3& expected) const;
+  std::vector<GradientPoint> PointsInImage(const PhotometricView& view, int level, const SE3& expected) const;
   void MinimizeAt(const PhotometricScene& scene, const SE3& expected, const Twist& prior,
                   PhotometricSolution* solution) const;
 

@@ -29,7 +29,7 @@ struct Frame {
     const auto seen_at = [&](double t) { return room.See(camera, At(t) * test::BodyCamera()); };
     events = EventImage(test::CountBetween(seen_at(-kSeconds / 2), seen_at(kSeconds / 2), kThreshold),
                         kThreshold, 1, 2);
-    const MapView view = room.See(ViewCamera(camera, 0), pose * test::BodyCamera());
+    const PhotometricView view = room.See(ViewCamera(camera, 0), pose * test::BodyCamera());
     scene.T_camera_body = test::BodyCamera().Inverse();
     scene.camera = camera;
     scene.events = &events;

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "common/geometry/rig.h"
-#include "common/photometric/map_view.h"
 #include "common/photometric/photometric_options.h"
 #include "common/photometric/photometric_solver.h"
+#include "common/photometric/photometric_view.h"
 #include "common/tracking/tracker_output.h"
 
 namespace evit {
@@ -26,7 +26,7 @@ class PhotometricTracker {
 
   /// The view that the next frame needs: from where the body is expected then.
   ViewQuery NextQuery() const;
-  void SetView(MapView view) { view_ = std::move(view); }
+  void SetView(PhotometricView view) { view_ = std::move(view); }
 
   /// Nodes: this frame's alone. Quality: inlier_share is the correlation of both images.
   TrackerOutput Process(const PhotometricFrame& frame);
@@ -44,7 +44,7 @@ class PhotometricTracker {
   Rig rig_;
   PhotometricTrackerOptions options_;
   PhotometricSolver solver_;
-  MapView view_;
+  PhotometricView view_;
   TrackerMode mode_ = TrackerMode::kBootstrapping;
   std::string reason_ = "waiting for the first frame";
   BodyState state_;                                 // velocity: of the body's origin, map frame

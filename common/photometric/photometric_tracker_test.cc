@@ -30,7 +30,7 @@ struct Bench {
   ViewRenderer renderer{test::Room().Map(0.012), test::Room::kDark};
   PhotometricTracker tracker;
   std::int64_t seq = 0;
-  MapView before;
+  PhotometricView before;
 
   static Rig MakeRig() {
     Rig rig;
@@ -54,11 +54,11 @@ struct Bench {
     frame.begin = t - kInterval / 2;
     frame.end = t + kInterval / 2;
     if (before.log_intensity.empty()) before = see(frame.begin);
-    MapView after = see(frame.end);
+    PhotometricView after = see(frame.end);
     frame.counts = test::CountBetween(before, after, kContrast);
     before = std::move(after);
     frame.n_events = cv::countNonZero(frame.counts != 128);
-    MapView view;
+    PhotometricView view;
     renderer.Render(tracker.NextQuery(), &view);
     tracker.SetView(view);
     return tracker.Process(frame);

@@ -12,7 +12,7 @@ RgbdView ViewOf(const test::Room& room, const SE3& T_map_body) {
   view.camera = test::EventCamera();
   view.camera.distortion = {};
   view.T_map_camera = T_map_body * test::BodyCamera();
-  const MapView seen = room.See(view.camera, view.T_map_camera);
+  const PhotometricView seen = room.See(view.camera, view.T_map_camera);
   for (std::size_t k = 0; k < seen.log_intensity.size(); ++k) {
     const float inverse = seen.inverse_depth[k];
     view.depth.push_back(inverse > 0 ? 1 / inverse : 0);

@@ -82,7 +82,7 @@ ViewRenderer::ViewRenderer(const PhotometricMap& map, double dark) : dark_(stati
   }
 }
 
-void ViewRenderer::Render(const ViewQuery& query, MapView* view) {
+void ViewRenderer::Render(const ViewQuery& query, PhotometricView* view) {
   const std::size_t n = static_cast<std::size_t>(query.camera.width) * query.camera.height;
   view->query = query;
   view->log_intensity.assign(n, 0);
@@ -166,7 +166,7 @@ void ViewRenderer::CloseLeaks(int width, int height) {
 }
 
 // Weighted mean of the points on the surface that each pixel sees.
-void ViewRenderer::Blend(const Camera& camera, MapView* view) {
+void ViewRenderer::Blend(const Camera& camera, PhotometricView* view) {
   const int width = camera.width, height = camera.height;
   const std::size_t n = depth_.size();
   weight_.assign(n, 0);
@@ -201,7 +201,7 @@ void ViewRenderer::Blend(const Camera& camera, MapView* view) {
 }
 
 // Twice: pixels that see nothing amid at least five that do get their mean.
-void ViewRenderer::FillHoles(const Camera& camera, MapView* view) {
+void ViewRenderer::FillHoles(const Camera& camera, PhotometricView* view) {
   const int width = camera.width, height = camera.height;
   for (int round = 0; round < 2; ++round) {
     scratch_ = view->inverse_depth;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/map/photometric_map.h"
-#include "common/photometric/map_view.h"
+#include "common/photometric/photometric_view.h"
 
 namespace evit {
 
@@ -20,7 +20,7 @@ class ViewRenderer {
   explicit ViewRenderer(const PhotometricMap& map, double dark = 0.012);
 
   /// The query's camera must have no distortion.
-  void Render(const ViewQuery& query, MapView* view);
+  void Render(const ViewQuery& query, PhotometricView* view);
 
   std::size_t size() const { return x_.size(); }
   /// m: side of the square of surface that a point stands for, median.
@@ -38,8 +38,8 @@ class ViewRenderer {
   void Project(const ViewQuery& query);
   void FillDepth(const Camera& camera);
   void CloseLeaks(int width, int height);
-  void Blend(const Camera& camera, MapView* view);
-  void FillHoles(const Camera& camera, MapView* view);
+  void Blend(const Camera& camera, PhotometricView* view);
+  void FillHoles(const Camera& camera, PhotometricView* view);
 
   float dark_;
   float spacing_ = 0;

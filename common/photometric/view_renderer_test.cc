@@ -30,9 +30,9 @@ TEST(ViewRenderer, SeesWhatRaysSee) {
   EXPECT_NEAR(renderer.spacing(), 0.01, 1e-3);
   for (const SE3& pose : kPoses) {
     const ViewQuery query = QueryAt(pose);
-    MapView view;
+    PhotometricView view;
     renderer.Render(query, &view);
-    const MapView truth = room.See(query.camera, query.T_map_camera);
+    const PhotometricView truth = room.See(query.camera, query.T_map_camera);
     const auto n = static_cast<int>(view.log_intensity.size());
     int seen = 0, same_depth = 0;
     std::vector<double> errors, slopes, slope_errors;
@@ -44,7 +44,7 @@ TEST(ViewRenderer, SeesWhatRaysSee) {
         continue;
       ++same_depth;
       errors.push_back(std::abs(view.log_intensity[i] - truth.log_intensity[i]));
-      const auto slope = [&](const MapView& v) {
+      const auto slope = [&](const PhotometricView& v) {
         return 0.5 * (v.log_intensity[i + 1] - v.log_intensity[i - 1]);
       };
       slopes.push_back(std::abs(slope(truth)));
@@ -72,7 +72,7 @@ TEST(ViewRenderer, NearerWallsHideFartherOnes) {
   }
   ViewRenderer renderer(map);
   const ViewQuery query = QueryAt({Eigen::Quaterniond::Identity(), {-0.05, 0, 0}});
-  MapView view;
+  PhotometricView view;
   renderer.Render(query, &view);
   int wrong = 0;
   for (int y = 0; y < 240; ++y) {
@@ -92,7 +92,7 @@ TEST(ViewRenderer, NearerWallsHideFartherOnes) {
 
 TEST(ViewRenderer, NothingInViewIsNothing) {
   ViewRenderer renderer(test::Room().Map(0.05)), empty{PhotometricMap()};
-  MapView view;
+  PhotometricView view;
   for (ViewRenderer* r : {&renderer, &empty}) {
     r->Render(QueryAt({Eigen::Quaterniond(0, 0, 0, 1), {0, 0, 0}}), &view);  // looks back
     ASSERT_EQ(view.inverse_depth.size(), 320u * 240u);
@@ -104,7 +104,7 @@ TEST(ViewRenderer, NothingInViewIsNothing) {
 TEST(ViewRenderer, DepthsOutsideTheRangeAreNotSeenAndTheSameQueryGivesTheSameBits) {
   ViewRenderer renderer(test::Room().Map(0.02));
   ViewQuery query = QueryAt({});
-  MapView first, second;
+  PhotometricView first, second;
   renderer.Render(query, &first);
   query.max_depth = 2.5;
   renderer.Render(query, &second);

@@ -32,7 +32,7 @@ ViewQuery FromMessage(const view_query_t& m) {
   return q;
 }
 
-map_view_t ToMessage(const MapView& view) {
+map_view_t ToMessage(const PhotometricView& view) {
   map_view_t m{};
   m.width = view.query.camera.width;
   m.height = view.query.camera.height;
@@ -52,8 +52,8 @@ map_view_t ToMessage(const MapView& view) {
   return m;
 }
 
-MapView FromMessage(const map_view_t& m, const ViewQuery& query) {
-  MapView view;
+PhotometricView FromMessage(const map_view_t& m, const ViewQuery& query) {
+  PhotometricView view;
   view.query = query;
   view.log_intensity.reserve(m.log_intensity.size());
   view.inverse_depth.reserve(m.inverse_depth.size());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/photometric/map_view.h"
+#include "common/photometric/photometric_view.h"
 #include "evit/map_view_t.hpp"
 #include "evit/view_query_t.hpp"
 
@@ -13,8 +13,8 @@ ViewQuery FromMessage(const view_query_t& message);
 
 /// Rounded to 1/4096 of log intensity and 1 / (65535 * min_depth) of inverse depth: 1e-4 and, at 2 m with
 /// min_depth 0.1 m, 0.6 mm. Depths nearer than min_depth are cut off there.
-map_view_t ToMessage(const MapView& view);
+map_view_t ToMessage(const PhotometricView& view);
 /// `query`: the one it answers.
-MapView FromMessage(const map_view_t& message, const ViewQuery& query);
+PhotometricView FromMessage(const map_view_t& message, const ViewQuery& query);
 
 }  // namespace evit

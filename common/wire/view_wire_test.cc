@@ -7,8 +7,8 @@
 namespace evit {
 namespace {
 
-MapView MakeView() {
-  MapView view;
+PhotometricView MakeView() {
+  PhotometricView view;
   view.query.T_map_camera = {ExpSO3({0.4, -0.9, 1.3}), {1, -2, 0.5}};
   Camera& camera = view.query.camera;
   camera.width = 320, camera.height = 240, camera.fx = 150, camera.fy = 151, camera.cx = 158, camera.cy = 119;
@@ -20,7 +20,7 @@ MapView MakeView() {
 }
 
 TEST(ViewWire, AViewComesBackAsNearAsPromisedAndFitsTheBus) {
-  const MapView view = MakeView();
+  const PhotometricView view = MakeView();
   const map_view_t message = ToMessage(view);
   std::vector<std::uint8_t> bytes;
   EncodeTo(message, &bytes);
@@ -28,7 +28,7 @@ TEST(ViewWire, AViewComesBackAsNearAsPromisedAndFitsTheBus) {
   map_view_t decoded;
   std::string why;
   ASSERT_TRUE(DecodeChecked(bytes.data(), bytes.size(), &decoded, &why)) << why;
-  const MapView back = FromMessage(decoded, view.query);
+  const PhotometricView back = FromMessage(decoded, view.query);
   ASSERT_EQ(back.log_intensity.size(), view.log_intensity.size());
   ASSERT_EQ(back.inverse_depth.size(), view.inverse_depth.size());
   for (std::size_t k = 0; k < view.log_intensity.size(); ++k) {
@@ -39,11 +39,11 @@ TEST(ViewWire, AViewComesBackAsNearAsPromisedAndFitsTheBus) {
 }
 
 TEST(ViewWire, NothingSeenIsNotNear) {
-  MapView view = MakeView();
+  PhotometricView view = MakeView();
   view.inverse_depth[1] = 1e-9F;  // far, but seen
   view.inverse_depth[2] = 1e9F;   // nearer than min_depth
   view.log_intensity[1] = -1e9F;
-  const MapView back = FromMessage(ToMessage(view), view.query);
+  const PhotometricView back = FromMessage(ToMessage(view), view.query);
   EXPECT_GT(back.inverse_depth[1], 0);
   EXPECT_NEAR(back.inverse_depth[2], 10, 1e-3);
   EXPECT_EQ(back.log_intensity[1], -8);

@@ -34,7 +34,7 @@ class ViewServer {
   std::int64_t* dropped_;  // counter of STATUS
   ViewRenderer renderer_;
   std::deque<view_query_t> queue_;
-  MapView view_;
+  PhotometricView view_;
   std::int64_t seq_ = 0;
   std::pair<std::int64_t, std::int64_t> answered_{
       -1, -1};  // epoch and number of the query whose answer is in buffer_

@@ -75,7 +75,7 @@ TEST_F(ViewServerTest, AnswersAsTheLibraryDoesEveryTime) {
   Send(Message(3));  // the answer was lost: the same again
   Exchange();
   ASSERT_EQ(answers_.size(), 2u);
-  MapView expected;
+  PhotometricView expected;
   ViewRenderer renderer(map_);
   renderer.Render(FromMessage(Message(3)), &expected);
   const map_view_t m = ToMessage(expected);

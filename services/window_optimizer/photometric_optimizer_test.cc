@@ -44,7 +44,7 @@ class PhotometricOptimizerTest : public test::OptimizerPeer {
     }
   }
   void Answer(const view_query_t& query) {
-    MapView view;
+    PhotometricView view;
     renderer_.Render(FromMessage(query), &view);
     map_view_t answer = ToMessage(view);
     answer.query_seq = query.seq;

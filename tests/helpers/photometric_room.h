@@ -8,7 +8,7 @@
 
 #include "common/geometry/camera.h"
 #include "common/map/photometric_map.h"
-#include "common/photometric/map_view.h"
+#include "common/photometric/photometric_view.h"
 
 namespace evit::test {
 
@@ -42,8 +42,8 @@ struct Room {
     return nearest > 0 && nearest < 20 ? nearest : 0;
   }
   /// Ray by ray; distortion allowed.
-  MapView See(const Camera& camera, const SE3& T_map_camera) const {
-    MapView view;
+  PhotometricView See(const Camera& camera, const SE3& T_map_camera) const {
+    PhotometricView view;
     view.query.camera = camera;
     view.query.T_map_camera = T_map_camera;
     const SE3 T = T_map_room.Inverse() * T_map_camera;
@@ -94,7 +94,7 @@ inline Camera EventCamera(int width = 320, int height = 240) {
 
 /// Signed counts (as EventCounter's) of a pixel array that saw `before`, then `after`: each has its own phase
 /// between two thresholds.
-inline cv::Mat CountBetween(const MapView& before, const MapView& after, double threshold) {
+inline cv::Mat CountBetween(const PhotometricView& before, const PhotometricView& after, double threshold) {
   const Camera& camera = before.query.camera;
   cv::Mat counts(camera.height, camera.width, CV_8UC1);
   for (std::size_t k = 0; k < before.log_intensity.size(); ++k) {

@@ -16,7 +16,7 @@ struct ViewQuery {
 };
 
 /// How a photometric map looks from there; both images row-major [height][width].
-struct MapView {
+struct PhotometricView {
   ViewQuery query;
   std::vector<float> log_intensity;  // natural logarithm; 0 where nothing is seen
   std::vector<float> inverse_depth;  // 1/m along the optical axis; 0: nothing is seen
