@@ -8,7 +8,7 @@
 #include "bench/counters.h"
 #include "common/localization/place_finder.h"
 #include "common/localization/place_index.h"
-#include "common/tracking/synthetic_scene.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include "common/tracking/ceres_factors.h"
 #include "common/tracking/pose_manifold.h"
 #include "common/tracking/sliding_window.h"
-#include "common/tracking/synthetic_scene.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit::bench {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "common/bus/lcm_bus.h"
 #include "common/evaluation/trajectory_error.h"
-#include "common/service/child_process.h"
+#include "tests/helpers/child_process.h"
 #include "tests/helpers/paths.h"
 #include "tools/run/recorder.h"
 

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "common/geometry/degrees.h"
-#include "common/tracking/synthetic_scene.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit {
 namespace {

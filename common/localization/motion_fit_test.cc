@@ -6,7 +6,7 @@
 #include <random>
 
 #include "common/localization/scale_watch.h"
-#include "common/tracking/synthetic_scene.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/localization/synthetic_room.h"
+#include "tests/helpers/synthetic_room.h"
 
 namespace evit {
 namespace {

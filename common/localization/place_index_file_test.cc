@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/localization/synthetic_room.h"
+#include "tests/helpers/synthetic_room.h"
 
 namespace evit {
 namespace {

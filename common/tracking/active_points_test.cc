@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "common/tracking/synthetic_scene.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit {
 namespace {

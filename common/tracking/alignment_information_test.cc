@@ -7,7 +7,7 @@
 #include <random>
 
 #include "common/tracking/reference_alignment.h"
-#include "common/tracking/synthetic_scene.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit {
 namespace {

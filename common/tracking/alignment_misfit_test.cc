@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "common/tracking/synthetic_scene.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit {
 namespace {

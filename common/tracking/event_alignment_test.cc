@@ -5,7 +5,7 @@
 #include "common/geometry/degrees.h"
 #include "common/tracking/kernel_lanes.h"
 #include "common/tracking/reference_alignment.h"
-#include "common/tracking/synthetic_scene.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "common/tracking/ceres_factors.h"
-#include "common/tracking/synthetic_scene.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/tracking/synthetic_scene.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit {
 namespace {

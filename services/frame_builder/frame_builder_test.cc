@@ -152,7 +152,7 @@ TEST_F(FrameBuilderTest, ASecondReplayRestartsTheStream) {
 TEST_F(FrameBuilderTest, RealTimeNeverWaitsAndCountsLosses) {
   Start(false);
   tracker_.answer_at_once = false;
-  test::Recording recording = MakeRecording(300);
+  test::RecordedMessages recording = MakeRecording(300);
   recording.events.erase(recording.events.begin() + 50, recording.events.begin() + 60);
   test::Sender sender(peer_bus_.get(), recording, 77);
   Replay(&sender, 1);

@@ -6,11 +6,11 @@
 #include <fstream>
 
 #include "common/bus/lcm_bus.h"
-#include "common/service/child_process.h"
 #include "common/service/credit_sender.h"
 #include "common/service/sequence_counter.h"
 #include "common/time/milliseconds.h"
 #include "tests/helpers/bus_messages.h"
+#include "tests/helpers/child_process.h"
 #include "tests/helpers/paths.h"
 #include "tests/helpers/replay_recording.h"
 

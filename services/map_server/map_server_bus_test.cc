@@ -5,7 +5,7 @@
 #include "common/bus/lcm_bus.h"
 #include "common/map/denoise.h"
 #include "common/map/map_file.h"
-#include "common/service/child_process.h"
+#include "tests/helpers/child_process.h"
 #include "tests/helpers/map_asker.h"
 #include "tests/helpers/map_files.h"
 #include "tests/helpers/paths.h"

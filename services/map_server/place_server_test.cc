@@ -10,9 +10,9 @@
 
 #include "common/bus/codec.h"
 #include "common/bus/memory_bus.h"
-#include "common/localization/synthetic_room.h"
 #include "common/wire/place_wire.h"
 #include "services/map_server/map_server.h"
+#include "tests/helpers/synthetic_room.h"
 
 namespace evit {
 namespace {

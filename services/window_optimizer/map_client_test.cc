@@ -9,7 +9,7 @@
 
 #include "common/bus/codec.h"
 #include "common/bus/memory_bus.h"
-#include "common/tracking/synthetic_scene.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit {
 namespace {

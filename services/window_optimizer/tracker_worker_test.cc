@@ -5,8 +5,8 @@
 #include <chrono>
 #include <thread>
 
-#include "common/tracking/synthetic_scene.h"
 #include "common/tracking/tracker.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit {
 namespace {

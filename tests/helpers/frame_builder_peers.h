@@ -17,16 +17,16 @@
 /// What stands around frame_builder in a pipeline, for its tests.
 namespace evit::test {
 
-/// A recording as messages, in the order of their time; `packet`: events in one EVENTS message.
-struct Recording {
+/// The messages of a recording, in the order of their time; `packet`: events in one EVENTS message.
+struct RecordedMessages {
   std::vector<event_packet_t> events;
   std::vector<imu_batch_t> imu;
 };
 
-inline Recording MakeRecording(std::size_t packet, Utime duration = 1'000'000) {
+inline RecordedMessages MakeRecording(std::size_t packet, Utime duration = 1'000'000) {
   const Utime begin = 1'000'000;
   const EventArray all = RandomStream(begin, begin + duration, 60'000, 3);
-  Recording r;
+  RecordedMessages r;
   for (std::size_t i = 0; i < all.size(); i += packet) {
     const EventArray part = Slice(all, i, std::min(i + packet, all.size()));
     r.events.push_back(ToPackets(part, 0, static_cast<std::int64_t>(r.events.size())).at(0));
@@ -43,7 +43,7 @@ inline Recording MakeRecording(std::size_t packet, Utime duration = 1'000'000) {
 /// lacks.
 class Sender {
  public:
-  Sender(Bus* bus, Recording recording, std::int64_t epoch)
+  Sender(Bus* bus, RecordedMessages recording, std::int64_t epoch)
       : bus_(bus), recording_(std::move(recording)), epoch_(epoch) {
     Listen<credit_t>(bus, Channels().credit, [this](const credit_t& m) { credit = m; });
   }
@@ -79,7 +79,7 @@ class Sender {
 
  private:
   Bus* bus_;
-  Recording recording_;
+  RecordedMessages recording_;
   std::int64_t epoch_;
   std::size_t e_ = 0, m_ = 0;
 };

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/tracking/map_tracker.h"
-#include "common/tracking/synthetic_scene.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit {
 

@@ -9,10 +9,10 @@
 #include <thread>
 #include <vector>
 
-#include "common/tracking/synthetic_scene.h"
 #include "common/wire/imu_wire.h"
 #include "services/window_optimizer/window_optimizer.h"
 #include "tests/helpers/optimizer_peer.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit::test {
 

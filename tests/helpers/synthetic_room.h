@@ -1,11 +1,11 @@
 #pragma once
 
-// For tests only: a room of line segments on four walls, floor and shelves, and what a body in it sees.
+// A room of line segments on four walls, floor and shelves, and what a body in it sees.
 #include <random>
 #include <vector>
 
 #include "common/localization/place_finder.h"
-#include "common/tracking/synthetic_scene.h"
+#include "tests/helpers/synthetic_scene.h"
 
 namespace evit::synthetic {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// For tests only: a room of random edge points, a smooth motion through it with its exact IMU readings, and
-// time surfaces drawn from the points.
+// A room of random edge points, a smooth motion through it with its exact IMU readings, and time surfaces
+// drawn from the points.
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <random>
