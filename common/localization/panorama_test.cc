@@ -5,7 +5,6 @@
 #include <random>
 
 #include "common/localization/edge_points.h"
-#include "common/localization/in_parallel.h"
 #include "common/localization/prior_text.h"
 
 namespace evit {
@@ -64,17 +63,6 @@ TEST(EdgePoints, NoMoreThanAllowed) {
   const std::size_t n = ThinEdges(map, options).size();
   EXPECT_LE(n, 2000U);
   EXPECT_GT(n, 800U);
-}
-
-TEST(InParallel, DoesAllOnceAndPassesOnWhatIsThrown) {
-  std::vector<int> done(1000);
-  InParallel(3, done.size(), [&](std::size_t k) { ++done[k]; });
-  EXPECT_EQ(done, std::vector<int>(1000, 1));
-  EXPECT_THROW(InParallel(2, 50,
-                          [](std::size_t k) {
-                            if (k == 7) throw std::runtime_error("seven");
-                          }),
-               std::runtime_error);
 }
 
 TEST(PlacePrior, IsReadAndHeldTo) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "common/localization/in_parallel.h"
 #include "common/localization/yaw_search.h"
+#include "common/parallel/parallel_for.h"
 #include "common/tracking/alignment_significance.h"
 #include "common/tracking/start_search.h"
 
@@ -81,7 +81,7 @@ std::vector<PlaceCandidate> PlaceFinder::Answer(const PlaceQuery& query) const {
 
 std::vector<PlaceCandidate> PlaceFinder::Refined(const PlaceQuery& query, const SurfaceField& field) const {
   std::vector<PlaceCandidate> refined(query.hypotheses.size());
-  InParallel(options_.threads, refined.size(), [&](std::size_t k) {
+  ParallelFor(static_cast<int>(refined.size()), options_.threads, [&](int k) {
     const AlignmentPoints points = PointsAt(query.hypotheses[k]);
     const SE3 pose = LocalizeBest(alignment_, field, points, query.hypotheses[k], kPredicted).T_map_body;
     refined[k] = {pose, AlignmentSignificance(alignment_, field, points, pose), 0,
@@ -110,13 +110,13 @@ std::vector<PlaceCandidate> PlaceFinder::Everywhere(const PlaceQuery& query,
   const std::vector<PlaceMatch> matches =
       BestMatches(index_, panorama, MatchesOf(index_, options_.matches), allowed, options_.threads);
   std::vector<PlaceCandidate> aligned(matches.size());
-  InParallel(options_.threads, matches.size(), [&](std::size_t k) {
+  ParallelFor(static_cast<int>(matches.size()), options_.threads, [&](int k) {
     aligned[k] = Aligned(field, pose_of(matches[k].at, matches[k].yaw), kFromMatch);
     aligned[k].likeness = matches[k].score;
   });
   SortOut(&aligned, options_.candidates);
   std::vector<PlaceCandidate> searched(std::min(kSearched, aligned.size()));
-  InParallel(options_.threads, searched.size(), [&](std::size_t k) {
+  ParallelFor(static_cast<int>(searched.size()), options_.threads, [&](int k) {
     searched[k] = Searched(field, aligned[k].T_map_body, kAround, query.number);
     searched[k].likeness = aligned[k].likeness;
   });

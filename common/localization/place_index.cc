@@ -6,8 +6,8 @@
 #include <limits>
 #include <mutex>
 
-#include "common/localization/in_parallel.h"
 #include "common/map/view_projector.h"
+#include "common/parallel/parallel_for.h"
 
 namespace evit {
 namespace {
@@ -189,15 +189,17 @@ PlaceIndex::PlaceIndex(const PointMap& map, const PlaceIndexOptions& options,
   const std::vector<Eigen::Vector3f> grid = Grid(edges, options, &spacing_);
   std::vector<std::vector<Edge>> visible(grid.size());
   std::mutex reporting;
-  InParallel(options.threads, (grid.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+  const auto blocks = static_cast<int>((grid.size() + kBlock - 1) / kBlock);
+  ParallelFor(blocks, options.threads, [&](int block) {
     View view(edges, options);
     std::vector<Edge> seen;
-    for (std::size_t k = block * kBlock; k < std::min(grid.size(), (block + 1) * kBlock); ++k) {
+    const std::size_t first = static_cast<std::size_t>(block) * kBlock;
+    for (std::size_t k = first; k < std::min(grid.size(), first + kBlock); ++k) {
       view.From(grid[k], &seen);
       if (seen.size() >= static_cast<std::size_t>(options.min_visible)) visible[k] = seen;
     }
     const std::lock_guard<std::mutex> lock(reporting);
-    if (progress) progress(static_cast<double>(block * kBlock) / static_cast<double>(grid.size()));
+    if (progress) progress(static_cast<double>(first) / static_cast<double>(grid.size()));
   });
   std::size_t total = 0;
   for (const std::vector<Edge>& edges_seen : visible) total += edges_seen.size();

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "common/localization/in_parallel.h"
+#include "common/parallel/parallel_for.h"
 #include "common/simd/lanes.h"
 
 namespace evit {
@@ -66,9 +66,10 @@ bool Neighbours(const PlaceMatch& a, const PlaceMatch& b, double spacing) {
 std::vector<PlaceMatch> BestMatches(const PlaceIndex& index, const EventPanorama& events, std::size_t count,
                                     const std::function<bool(const Eigen::Vector3f&, double)>& allowed,
                                     int threads) {
-  std::vector<std::vector<PlaceMatch>> found(std::max(1, threads));
-  InParallel(threads, found.size(), [&](std::size_t part) {
-    for (std::size_t k = part; k < index.places().size(); k += found.size())
+  const int parts = std::max(1, threads);
+  std::vector<std::vector<PlaceMatch>> found(parts);
+  ParallelFor(parts, threads, [&](int part) {
+    for (std::size_t k = part; k < index.places().size(); k += parts)
       MatchPlace(index, index.places()[k], events, allowed, &found[part]);
   });
   std::vector<PlaceMatch> all;
