@@ -4,13 +4,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/geometry/degrees.h"
 #include "common/geometry/so3.h"
+#include "common/imu/standard_gravity.h"
 
 namespace evit {
 namespace {
 
-constexpr double kRadians = 0.017453292519943295;
-constexpr double kStandardGravity = 9.80665;
 constexpr std::size_t kMinSamples = 20;
 constexpr Utime kWindow = 500'000, kMinSpan = 200'000;  // us
 
@@ -34,7 +34,7 @@ std::vector<Window> Windows(const std::vector<ImuSample>& samples) {
       w.rate += samples[k].gyro;
       const double dt = k > begin ? std::min(0.1, ToSeconds(samples[k].t - samples[k - 1].t)) : 0;
       w.turned *= ExpSO3(dt * samples[k].gyro).toRotationMatrix();
-      w.turned_degrees *= ExpSO3(kRadians * dt * samples[k].gyro).toRotationMatrix();
+      w.turned_degrees *= ExpSO3(kRadiansPerDegree * dt * samples[k].gyro).toRotationMatrix();
     }
     const auto n = static_cast<double>(k - begin);
     w.force /= n;
@@ -126,7 +126,7 @@ std::string GravityComplaint(const std::vector<ImuSample>& samples, const Eigen:
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   for (const ImuSample& s : samples) force += s.accel;
   const Eigen::Vector3d up = q_map_body * force.normalized();
-  const double degrees = std::acos(std::clamp(up.z(), -1.0, 1.0)) / kRadians;
+  const double degrees = std::acos(std::clamp(up.z(), -1.0, 1.0)) / kRadiansPerDegree;
   if (force.norm() < 0.1 * static_cast<double>(samples.size()) || degrees < 60) return "";
   return Sentence(
              "at the start the accelerometer's mean, which should point up, lies %.0f deg off the map's z "

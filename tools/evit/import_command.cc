@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/imu/standard_gravity.h"
 #include "common/service/stop_signals.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/import_options.h"
@@ -16,7 +17,8 @@ namespace evit::commands {
 namespace {
 
 // In m/s^2 and rad/s.
-const std::map<std::string, double> kAccelUnits{{"m/s^2", 1}, {"g", 9.80665}, {"mg", 9.80665e-3}};
+const std::map<std::string, double> kAccelUnits{
+    {"m/s^2", 1}, {"g", kStandardGravity}, {"mg", 1e-3 * kStandardGravity}};
 const std::map<std::string, double> kGyroUnits{{"rad/s", 1}, {"deg/s", 0.017453292519943295}};
 
 std::vector<std::string> UnitNames(const std::map<std::string, double>& units) {

@@ -3,17 +3,12 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "common/files/load_number.h"
+
 namespace evit::feed {
 namespace {
 
 enum Kind : std::uint8_t { kEvent = 1, kImu = 2 };
-
-template <typename Number>
-Number Load(const std::uint8_t* data) {
-  Number value;
-  std::memcpy(&value, data, sizeof value);
-  return value;
-}
 
 }  // namespace
 
@@ -46,11 +41,11 @@ std::size_t RecordParser::ParseWhole(const std::uint8_t* data, std::size_t size,
     }
     if (size - at < length) break;
     if (record[0] == kEvent) {
-      events->push_back(Load<Utime>(record + 8), Load<std::uint16_t>(record + 2),
-                        Load<std::uint16_t>(record + 4), record[1] != 0 ? 1 : 0);
+      events->push_back(LoadNumber<Utime>(record + 8), LoadNumber<std::uint16_t>(record + 2),
+                        LoadNumber<std::uint16_t>(record + 4), record[1] != 0 ? 1 : 0);
     } else {
       ImuSample s;
-      s.t = Load<Utime>(record + 8);
+      s.t = LoadNumber<Utime>(record + 8);
       std::memcpy(s.gyro.data(), record + 16, 24);
       std::memcpy(s.accel.data(), record + 40, 24);
       imu->push_back(s);

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <vector>
 
+#include "common/geometry/degrees.h"
 #include "tools/simulation/random.h"
 
 namespace evit::simulation {
 namespace {
-
-constexpr double kRadians = 0.017453292519943295;
 
 // Speeds and rates of VECtor's recordings where known: robot_normal 0.12 m/s and 0.3 rad/s; sofa_fast 0.84
 // m/s, at the 99th percentile 1.7 m/s and 3.4 rad/s.
@@ -75,7 +74,7 @@ Trajectory Draw(const BuiltinMotion& b, double duration, Random random, const Ri
   Eigen::Matrix3d R_map_camera;  // looks along +x, level
   R_map_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   Eigen::Quaterniond rest(R_map_camera);
-  if (b.pitch_deg != 0) rest = rest * ExpSO3(Eigen::Vector3d(-b.pitch_deg * kRadians, 0, 0));
+  if (b.pitch_deg != 0) rest = rest * ExpSO3(Eigen::Vector3d(-b.pitch_deg * kRadiansPerDegree, 0, 0));
   const SE3 T_camera_body = rig.T_body_camera.Inverse();
   Trajectory poses;
   for (int i = 0; i * step <= end; ++i) {

@@ -1,7 +1,8 @@
 #include <cstring>
 
+#include "common/geometry/degrees.h"
+#include "common/imu/standard_gravity.h"
 #include "tools/formats/aedat/aedat_decoder.h"
-#include "tools/formats/aedat/imu_units.h"
 
 namespace evit::formats {
 namespace {

@@ -1,9 +1,10 @@
-#include <cstring>
 #include <stdexcept>
 #include <string>
 
+#include "common/files/load_number.h"
+#include "common/geometry/degrees.h"
+#include "common/imu/standard_gravity.h"
 #include "tools/formats/aedat/aedat_decoder.h"
-#include "tools/formats/aedat/imu_units.h"
 
 namespace evit::formats {
 namespace {
@@ -11,20 +12,13 @@ namespace {
 constexpr std::size_t kHeader = 28, kMaxPacket = 1 << 28;  // bytes
 enum Type { kPolarity = 1, kImu6 = 3, kImu9 = 4 };
 
-template <typename Number>
-Number Load(const std::uint8_t* data) {
-  Number value;
-  std::memcpy(&value, data, sizeof value);
-  return value;
-}
-
 struct Header {
   explicit Header(const std::uint8_t* data)
-      : type(Load<std::int16_t>(data)),
-        size(Load<std::int32_t>(data + 4)),
-        stamp_at(Load<std::int32_t>(data + 8)),
-        overflow(Load<std::int32_t>(data + 12)),
-        number(Load<std::int32_t>(data + 20)) {}
+      : type(LoadNumber<std::int16_t>(data)),
+        size(LoadNumber<std::int32_t>(data + 4)),
+        stamp_at(LoadNumber<std::int32_t>(data + 8)),
+        overflow(LoadNumber<std::int32_t>(data + 12)),
+        number(LoadNumber<std::int32_t>(data + 20)) {}
   int type, size, stamp_at, overflow, number;
 };
 
@@ -39,7 +33,7 @@ void Check(const Header& h) {
 }
 
 Eigen::Vector3d Vector(const std::uint8_t* data) {
-  return {Load<float>(data), Load<float>(data + 4), Load<float>(data + 8)};
+  return {LoadNumber<float>(data), LoadNumber<float>(data + 4), LoadNumber<float>(data + 8)};
 }
 
 }  // namespace
@@ -58,9 +52,9 @@ std::size_t Aedat3Decoder::Decode(const std::uint8_t* data, std::size_t size, Ev
     std::int32_t before = 0;
     const bool is_imu = (h.type == kImu6 && h.size >= 36) || (h.type == kImu9 && h.size >= 48);
     for (int k = 0; k < h.number; ++k, item += item_bytes) {
-      const auto word = Load<std::uint32_t>(item);
+      const auto word = LoadNumber<std::uint32_t>(item);
       // The packet's count is that of its first event.
-      const auto stamp = Load<std::int32_t>(item + h.stamp_at);
+      const auto stamp = LoadNumber<std::int32_t>(item + h.stamp_at);
       if (before > 0x7000'0000 && stamp >= 0 && stamp < 0x1000'0000) base += Utime{1} << 31;
       before = stamp;
       const Utime t = base + stamp;

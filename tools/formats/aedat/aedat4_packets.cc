@@ -1,7 +1,9 @@
+#include "tools/formats/aedat/aedat4_packets.h"
+
 #include <cstring>
 #include <stdexcept>
 
-#include "tools/formats/aedat/aedat4_recording.h"
+#include "common/files/load_number.h"
 #include "tools/formats/aedat/flat_table.h"
 #include "tools/formats/compression/decompress.h"
 
@@ -11,16 +13,9 @@ namespace {
 constexpr char kVersion[] = "#!AER-DAT4.0\r\n";
 constexpr std::uint32_t kMaxHeader = 1 << 24, kMaxPacket = 1 << 28;  // bytes
 
-template <typename Number>
-Number Load(const std::uint8_t* data) {
-  Number value;
-  std::memcpy(&value, data, sizeof value);
-  return value;
-}
-
 }  // namespace
 
-bool Aedat4Recording::Recognises(const std::string& path) {
+bool Aedat4Packets::Recognises(const std::string& path) {
   ByteFile file(path);
   constexpr std::size_t n = sizeof kVersion - 1;
   return file.Fill(n) && file.available() >= n && std::memcmp(file.data(), kVersion, n) == 0;
@@ -28,7 +23,7 @@ bool Aedat4Recording::Recognises(const std::string& path) {
 
 Aedat4Packets::Aedat4Packets(const std::string& path) : file_(path), end_(file_.size()) {
   file_.Skip(sizeof kVersion - 1, "version");
-  const auto size = Load<std::uint32_t>(file_.Take(4, "header"));
+  const auto size = LoadNumber<std::uint32_t>(file_.Take(4, "header"));
   if (size > kMaxHeader)
     file_.Fail("its header says it has " + std::to_string(size) + " bytes: it is damaged");
   std::vector<std::uint8_t> header(4 + size);
@@ -54,8 +49,8 @@ const char* Aedat4Packets::compression() const {
 bool Aedat4Packets::Next(int id) {
   while (file_.position() + 8 <= end_) {
     const std::uint8_t* header = file_.Take(8, "packet");
-    const auto stream = Load<std::int32_t>(header);
-    const auto size = Load<std::uint32_t>(header + 4);
+    const auto stream = LoadNumber<std::int32_t>(header);
+    const auto size = LoadNumber<std::uint32_t>(header + 4);
     if (size > end_ - file_.position()) {
       cut_off_ = true;
       return false;

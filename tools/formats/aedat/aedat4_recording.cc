@@ -3,8 +3,9 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "common/geometry/degrees.h"
+#include "common/imu/standard_gravity.h"
 #include "tools/formats/aedat/flat_table.h"
-#include "tools/formats/aedat/imu_units.h"
 #include "tools/formats/import/event_filter.h"
 
 namespace evit::formats {

@@ -4,21 +4,16 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/files/load_number.h"
+
 namespace evit::formats {
 namespace {
 
 constexpr std::size_t kEventBytes = 13;  // u16 x, u16 y, u32 s, u32 ns, u8 polarity
 
-// ROS's wire format: little-endian and packed, as every machine we build for lays numbers out.
-template <typename T>
-T Load(const std::uint8_t* data) {
-  T value;
-  std::memcpy(&value, data, sizeof value);
-  return value;
-}
-
 Utime LoadTime(const std::uint8_t* data) {
-  return Load<std::uint32_t>(data) * kMicrosPerSecond + (Utime{Load<std::uint32_t>(data + 4)} + 500) / 1000;
+  return LoadNumber<std::uint32_t>(data) * kMicrosPerSecond +
+         (Utime{LoadNumber<std::uint32_t>(data + 4)} + 500) / 1000;
 }
 
 // Walks through a message; knows where it ends.
@@ -46,7 +41,7 @@ class Cursor {
     String("header.frame_id");
     return stamp;
   }
-  void String(const char* field) { Take(Load<std::uint32_t>(Take(4, field)), field); }
+  void String(const char* field) { Take(LoadNumber<std::uint32_t>(Take(4, field)), field); }
   void End() const {
     if (left_ == 0) return;
     throw std::runtime_error(std::to_string(left_) +
@@ -64,12 +59,12 @@ void DecodeEventArray(const std::uint8_t* data, std::size_t size, EventFilter* f
   Cursor message(data, size);
   message.Header();
   message.Take(8, "height, width");
-  const std::size_t n = Load<std::uint32_t>(message.Take(4, "events"));
+  const std::size_t n = LoadNumber<std::uint32_t>(message.Take(4, "events"));
   const std::uint8_t* event = message.Take(n * kEventBytes, "events");
   message.End();
   for (std::size_t k = 0; k < n; ++k, event += kEventBytes) {
     const Utime t = LoadTime(event + 4);
-    const auto x = Load<std::uint16_t>(event), y = Load<std::uint16_t>(event + 2);
+    const auto x = LoadNumber<std::uint16_t>(event), y = LoadNumber<std::uint16_t>(event + 2);
     if (filter->Keep(x, y)) events->push_back(t, x, y, filter->Polarity(event[12]));
   }
 }

@@ -1,22 +1,16 @@
 #include "tools/formats/event_packet/event_packet_decoder.h"
 
-#include <cstring>
 #include <stdexcept>
+
+#include "common/files/load_number.h"
 
 namespace evit::formats {
 namespace {
 
-template <typename Number>
-Number Load(const std::uint8_t* data) {
-  Number value;
-  std::memcpy(&value, data, sizeof value);
-  return value;
-}
-
 // 64 bits an event: polarity (1), row (15), column (16), ns after the packet's time base (32).
 void DecodeMono(const EventPacket& packet, EventArray* events) {
   for (std::size_t at = 0; at + 8 <= packet.size; at += 8) {
-    const auto word = Load<std::uint64_t>(packet.data + at);
+    const auto word = LoadNumber<std::uint64_t>(packet.data + at);
     events->push_back(static_cast<Utime>((packet.time_base + (word & 0xFFFF'FFFFU)) / 1000),
                       static_cast<std::uint16_t>(word >> 32),
                       static_cast<std::uint16_t>((word >> 48) & 0x7FFF),
@@ -30,8 +24,8 @@ void DecodeLibcaer(const EventPacket& packet, EventArray* events) {
   Utime base = static_cast<Utime>(packet.time_base / 1000);
   std::uint32_t before = 0;
   for (std::size_t at = 0; at + 8 <= packet.size; at += 8) {
-    const auto word = Load<std::uint32_t>(packet.data + at);
-    const std::uint32_t stamp = Load<std::uint32_t>(packet.data + at + 4) & 0x7FFF'FFFFU;
+    const auto word = LoadNumber<std::uint32_t>(packet.data + at);
+    const std::uint32_t stamp = LoadNumber<std::uint32_t>(packet.data + at + 4) & 0x7FFF'FFFFU;
     if (stamp < before && before - stamp > 0x4000'0000U) base += Utime{1} << 31;
     before = stamp;
     events->push_back(base + stamp, word >> 17, (word >> 2) & 0x7FFF, (word >> 1) & 1);
@@ -46,7 +40,7 @@ void DecodeLibcaerCompressed(const EventPacket& packet, EventArray* events) {
   std::uint8_t polarity = 0;
   const auto time = [&] { return base + (Utime{high} << 12) + low; };
   for (std::size_t at = 0; at + 2 <= packet.size; at += 2) {
-    const auto word = Load<std::uint16_t>(packet.data + at);
+    const auto word = LoadNumber<std::uint16_t>(packet.data + at);
     const std::uint16_t rest = word & 0xFFF;
     switch (word >> 12) {
       case kTimeHigh:

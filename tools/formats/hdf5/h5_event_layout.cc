@@ -1,9 +1,11 @@
+#include "tools/formats/hdf5/h5_event_layout.h"
+
 #include <algorithm>
 #include <map>
 
 #include "common/text/words.h"
-#include "tools/formats/hdf5/h5_events.h"
 #include "tools/formats/hdf5/h5_sample.h"
+#include "tools/formats/import/event_columns.h"
 
 namespace evit::formats {
 namespace {

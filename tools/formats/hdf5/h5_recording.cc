@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "tools/formats/hdf5/h5_streams.h"
 #include "tools/formats/import/event_filter.h"
 
 namespace evit::formats {

@@ -2,13 +2,11 @@
 
 #include <cmath>
 
+#include "tools/formats/import/latest_time.h"
 #include "tools/formats/import/micros_per_unit.h"
 
 namespace evit::formats {
 namespace {
-
-constexpr double kNever = 4e15;  // us: beyond any date
-constexpr Utime kNeverMicros = 4'000'000'000'000'000;
 
 // t_offset has the unit of the stamps, unless it is a date in another.
 Utime ReadOffset(const H5Rows& rows, double micros) {
@@ -24,7 +22,7 @@ Utime ReadOffset(const H5Rows& rows, double micros) {
   double scale = micros;
   if (size >= 1e14) scale = size >= 1e17 ? 1e-3 : 1;  // dates in us or ns
   if (size >= 1e9 && size < 1e10) scale = 1e6;        // in s
-  if (!(size * scale < kNever)) rows.Fail("is no time");
+  if (!(size * scale < kLatestTime)) rows.Fail("is no time");
   return std::llround(value * scale);
 }
 
@@ -36,7 +34,7 @@ H5Stamps::H5Stamps(TimeUnit unit, const H5Rows* offset) : micros_(MicrosPerUnit(
 
 Utime H5Stamps::FromDouble(double value) {
   const double micros = value * micros_;
-  return std::abs(micros) < kNever ? Finish(std::llround(micros)) : kNoTime;  // NaN is none either
+  return std::abs(micros) < kLatestTime ? Finish(std::llround(micros)) : kNoTime;  // NaN is none either
 }
 
 void H5Stamps::FromIntegers(std::vector<Utime>* stamps) {
@@ -45,9 +43,10 @@ void H5Stamps::FromIntegers(std::vector<Utime>* stamps) {
     if (unit_ == TimeUnit::kNanoseconds) {
       t = t / kThousand;
     } else if (unit_ != TimeUnit::kMicroseconds) {
-      t = std::abs(static_cast<double>(t)) * micros_ < kNever ? t * static_cast<Utime>(micros_) : kNoTime;
+      t = std::abs(static_cast<double>(t)) * micros_ < kLatestTime ? t * static_cast<Utime>(micros_)
+                                                                   : kNoTime;
     }
-    t = t < -kNeverMicros || t > kNeverMicros ? kNoTime : Finish(t);
+    t = t < -kLatestTime || t > kLatestTime ? kNoTime : Finish(t);
   }
 }
 

@@ -1,8 +1,10 @@
+#include "tools/formats/hdf5/h5_streams.h"
+
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "tools/formats/hdf5/h5_recording.h"
 #include "tools/formats/hdf5/h5_sample.h"
+#include "tools/formats/hdf5/h5_stamps.h"
 
 namespace evit::formats {
 namespace {

@@ -6,13 +6,14 @@
 #include <set>
 #include <stdexcept>
 
+#include "common/geometry/degrees.h"
+#include "common/imu/standard_gravity.h"
 #include "common/text/words.h"
 
 namespace evit::formats {
 namespace {
 
 constexpr double kSlowest = 0.2;  // s: IMUs read more often than this
-constexpr double kRadians = 3.14159265358979323846 / 180, kStandardGravity = 9.80665;
 
 bool IsAnyOf(const std::string& word, std::initializer_list<const char*> names) {
   return std::any_of(names.begin(), names.end(), [&](const char* name) { return word == name; });
@@ -102,7 +103,7 @@ bool ByHead(const TableSample& sample, ImuColumns* columns) {
       field = ImuColumns::kIgnored;
     columns->field.push_back(field);
     if (field >= ImuColumns::kGyro && field < ImuColumns::kAccel && SaysDegrees(name))
-      columns->gyro_unit = kRadians;
+      columns->gyro_unit = kRadiansPerDegree;
     if (field >= ImuColumns::kAccel && field < ImuColumns::kIgnored && SaysGravities(name))
       columns->accel_unit = kStandardGravity;
   }

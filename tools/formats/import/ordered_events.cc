@@ -1,19 +1,15 @@
 #include "tools/formats/import/ordered_events.h"
 
+#include "tools/formats/import/latest_time.h"
+
 namespace evit::formats {
-namespace {
-
-constexpr Utime kNever = 4'000'000'000'000'000;  // us: beyond any date
-
-}  // namespace
-
 bool OrderedEvents::Read(EventArray* events) {
   events->clear();
   while (events->size() == 0 && more_) {
     more_ = source_->Read(&piece_);
     for (std::size_t k = 0; more_ && k < piece_.size(); ++k) {
       const Utime t = piece_.t[k];
-      if (t > kNever || t < -kNever) {
+      if (t > kLatestTime || t < -kLatestTime) {
         ++n_impossible_;
       } else {
         order_.Push({wrap_.Continue(t), piece_.x[k], piece_.y[k], piece_.p[k]});

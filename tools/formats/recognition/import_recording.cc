@@ -9,6 +9,7 @@
 #include "tools/formats/alignment/clock_alignment.h"
 #include "tools/formats/alignment/event_flow.h"
 #include "tools/formats/hdf5/h5_recording.h"
+#include "tools/formats/hdf5/h5_streams.h"
 #include "tools/formats/recognition/recording_files.h"
 #include "tools/formats/tables/stream_tables.h"
 
