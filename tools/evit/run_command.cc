@@ -36,18 +36,14 @@ void SayWhy(const run::RunJob& job) {
   }
 }
 
-}  // namespace
+struct RunOptions {
+  run::RunJob job;
+  std::string pose, from, seconds;
+  bool realtime = false, lossless = false, monitor = false;
+  monitor::MonitorOptions page;
+};
 
-void AddRunCommand(CLI::App* app) {
-  struct Options {
-    run::RunJob job;
-    std::string pose, from, seconds;
-    bool realtime = false, lossless = false, monitor = false;
-    monitor::MonitorOptions page;
-  };
-  auto o = std::make_shared<Options>();
-  CLI::App* run =
-      app->add_subcommand("run", "Track a recorded log: starts the four services, scores the result");
+void AddRunFiles(CLI::App* run, RunOptions* o) {
   run->add_option("--log", o->job.log, "LCM log with EVENTS and IMU (evit import)")->required();
   run->add_option("--map", o->job.map, "Semi-dense map: PCD, PLY or text, metres, z up");
   run->add_option("--photometric-map", o->job.photometric_map,
@@ -64,6 +60,9 @@ void AddRunCommand(CLI::App* app) {
   AddPlaceOptions(run, &o->job.place);
   run->add_option("--truth", o->job.truth, "Truth (TUM) to score against");
   run->add_option("--out", o->job.out, "Folder for the results")->required();
+}
+
+void AddPlayback(CLI::App* run, RunOptions* o) {
   auto* realtime = run->add_flag("--realtime", o->realtime,
                                  "Play in real time; nothing waits for slow services, losses are counted");
   run->add_flag("--lossless", o->lossless,
@@ -82,6 +81,9 @@ void AddRunCommand(CLI::App* app) {
   run->add_option("--monitor-port", o->page.web.port, "Port of that page")
       ->check(CLI::Range(1, 65535))
       ->capture_default_str();
+}
+
+void AddTolerances(CLI::App* run, RunOptions* o) {
   run->add_option("--log-prefix", o->job.play.log_prefix,
                   "Prefix of EVENTS and IMU in the log (default: found, where there is only one)");
   run->add_flag("--allow-truncated", o->job.tolerate.truncated,
@@ -89,9 +91,65 @@ void AddRunCommand(CLI::App* app) {
   run->add_flag("--any-rig", o->job.tolerate.any_rig,
                 "Run even where the rig's T_body_camera looks like its inverse");
   run->add_flag("--any-imu", o->job.tolerate.any_imu, "Run even where the IMU's units or axes look wrong");
+}
+
+void AddBus(CLI::App* run, RunOptions* o) {
   run->add_option("--lcm-url", o->job.lcm_url,
                   "Bus (default: LCM_DEFAULT_URL, else one that never leaves this host)");
   run->add_option("--prefix", o->job.prefix, "Prefix of all channels, so that several pipelines share a bus");
+}
+
+// Completes the job from what was typed.
+void FinishJob(RunOptions* o) {
+  run::RunJob& job = o->job;
+  if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
+  job.initial_from = o->from;
+  job.tolerate.no_score = job.truth.empty();
+  if (job.truth.empty()) job.truth = o->from;
+  if (!o->seconds.empty()) job.play.seconds = ParseSeconds(o->seconds);
+  job.play.lossless = !o->realtime;
+  if (job.play.lossless && job.play.loops > 1) throw std::runtime_error("--loops needs --realtime");
+  if (job.play.loops > 1 && !job.initial_pose && job.initial_from.empty())
+    throw std::runtime_error("--loops needs --initial-pose or --initial-from: each loop starts there");
+  job.command = CommandLineOfThis();
+}
+
+// Opens the page that shows the run in the browser.
+void ShowPage(RunOptions* o, std::optional<monitor::MonitorChild>* shown) {
+  o->page.map = o->job.map;
+  o->page.rig = o->job.rig;
+  o->page.prefix = o->job.prefix;
+  shown->emplace(o->page, o->job.lcm_url);
+  std::printf("monitor: %s\n", monitor::PageUrl(o->page).c_str());
+  std::fflush(stdout);
+  monitor::OpenBrowser(monitor::PageUrl(o->page));
+}
+
+void RunAndShow(RunOptions* o) {
+  FinishJob(o);
+  const run::RunJob& job = o->job;
+  std::optional<monitor::MonitorChild> shown;
+  if (o->monitor) ShowPage(o, &shown);
+  const int code = run::Run(job);
+  if (code == 2) SayWhy(job);
+  if (shown && code != 130) {
+    std::printf("the run is over; the monitor shows its end until Ctrl-C\n");
+    std::fflush(stdout);
+    shown->WaitForSignal();
+  }
+  if (code != 0) throw CLI::RuntimeError(code);
+}
+
+}  // namespace
+
+void AddRunCommand(CLI::App* app) {
+  auto o = std::make_shared<RunOptions>();
+  CLI::App* run =
+      app->add_subcommand("run", "Track a recorded log: starts the four services, scores the result");
+  AddRunFiles(run, o.get());
+  AddPlayback(run, o.get());
+  AddTolerances(run, o.get());
+  AddBus(run, o.get());
   run->footer(
       "Example: evit run --log desk.lcmlog --map desk/map.pcd --rig desk/rig.textproto --initial-from "
       "desk/truth.tum "
@@ -100,37 +158,7 @@ void AddRunCommand(CLI::App* app) {
       "tracking, or\n"
       "tracked less than half of the time; 3 tracked, but --truth has too few poses for a score; 130 "
       "interrupted.");
-  run->callback([o] {
-    run::RunJob& job = o->job;
-    if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
-    job.initial_from = o->from;
-    job.tolerate.no_score = job.truth.empty();
-    if (job.truth.empty()) job.truth = o->from;
-    if (!o->seconds.empty()) job.play.seconds = ParseSeconds(o->seconds);
-    job.play.lossless = !o->realtime;
-    if (job.play.lossless && job.play.loops > 1) throw std::runtime_error("--loops needs --realtime");
-    if (job.play.loops > 1 && !job.initial_pose && job.initial_from.empty())
-      throw std::runtime_error("--loops needs --initial-pose or --initial-from: each loop starts there");
-    job.command = CommandLineOfThis();
-    std::optional<monitor::MonitorChild> shown;
-    if (o->monitor) {
-      o->page.map = job.map;
-      o->page.rig = job.rig;
-      o->page.prefix = job.prefix;
-      shown.emplace(o->page, job.lcm_url);
-      std::printf("monitor: %s\n", monitor::PageUrl(o->page).c_str());
-      std::fflush(stdout);
-      monitor::OpenBrowser(monitor::PageUrl(o->page));
-    }
-    const int code = run::Run(job);
-    if (code == 2) SayWhy(job);
-    if (shown && code != 130) {
-      std::printf("the run is over; the monitor shows its end until Ctrl-C\n");
-      std::fflush(stdout);
-      shown->WaitForSignal();
-    }
-    if (code != 0) throw CLI::RuntimeError(code);
-  });
+  run->callback([o] { RunAndShow(o.get()); });
 }
 
 }  // namespace evit::commands

@@ -49,6 +49,93 @@ bool IsInk(const Series& series, double length) {
   return series.dash <= 0 || std::fmod(length, 2.0 * series.dash) < series.dash;
 }
 
+// Where the chart's values lie in the image.
+struct Axes {
+  cv::Rect plot;  // pixels
+  Range x, y;
+
+  double X(double value) const { return plot.x + (value - x.low) / (x.high - x.low) * plot.width; }
+  double Y(double value) const {
+    return plot.y + plot.height - (value - y.low) / (y.high - y.low) * plot.height;
+  }
+};
+
+Axes AxesOf(const Chart& chart, const cv::Rect& plot) {
+  Axes axes{plot, {}, {}};
+  for (const Series& s : chart.series) {
+    for (const double v : s.x) axes.x.Add(v);
+    for (const double v : s.y) axes.y.Add(v);
+  }
+  axes.x.Pad();
+  axes.y.Pad();
+  if (chart.from_zero) axes.y.low = 0;
+  if (chart.equal_axes) {
+    const double scale =
+        std::max((axes.x.high - axes.x.low) / plot.width, (axes.y.high - axes.y.low) / plot.height);
+    const auto widen = [&](Range* r, int pixels) {
+      const double middle = 0.5 * (r->low + r->high);
+      r->low = middle - 0.5 * scale * pixels;
+      r->high = middle + 0.5 * scale * pixels;
+    };
+    widen(&axes.x, plot.width);
+    widen(&axes.y, plot.height);
+  }
+  return axes;
+}
+
+void DrawGrid(const Axes& axes, cv::Mat* image) {
+  const cv::Rect& plot = axes.plot;
+  const double step_x = TickStep(axes.x.high - axes.x.low, std::max(2, plot.width / 105));
+  const double step_y = TickStep(axes.y.high - axes.y.low, std::max(2, plot.height / 45));
+  for (double v = std::ceil(axes.x.low / step_x) * step_x; v <= axes.x.high; v += step_x) {
+    const int x = static_cast<int>(std::lround(axes.X(v)));
+    cv::line(*image, {x, plot.y}, {x, plot.y + plot.height}, kGrid);
+    DrawText(image, TickText(v, step_x), {x, plot.y + plot.height + 20}, kTick, Anchor::kCenter);
+  }
+  for (double v = std::ceil(axes.y.low / step_y) * step_y; v <= axes.y.high; v += step_y) {
+    const int y = static_cast<int>(std::lround(axes.Y(v)));
+    cv::line(*image, {plot.x, y}, {plot.x + plot.width, y}, kGrid);
+    DrawText(image, TickText(v, step_y), {plot.x - 6, y + 6}, kTick, Anchor::kRight);
+  }
+  cv::rectangle(*image, plot, kAxis);
+}
+
+void DrawSeries(const Series& s, const Axes& axes, cv::Mat* image) {
+  constexpr int kShift = 4;  // sub-pixel positions: curves without steps
+  const auto point = [&](std::size_t k) {
+    return cv::Point(static_cast<int>(std::lround(axes.X(s.x[k]) * (1 << kShift))),
+                     static_cast<int>(std::lround(axes.Y(s.y[k]) * (1 << kShift))));
+  };
+  double length = 0;  // pixels, along the curve
+  for (std::size_t k = 0; k < s.x.size(); ++k) {
+    if (!s.line) {
+      cv::circle(*image, point(k), 2 << kShift, s.color, cv::FILLED, cv::LINE_AA, kShift);
+      continue;
+    }
+    if (k == 0 || (s.gap > 0 && s.x[k] - s.x[k - 1] > s.gap)) continue;
+    const cv::Point from = point(k - 1), to = point(k);
+    if (IsInk(s, length)) cv::line(*image, from, to, s.color, 2, cv::LINE_AA, kShift);
+    length += cv::norm(to - from) / (1 << kShift);
+  }
+}
+
+// Right-aligned, from `x` to the left, on the line at `y`.
+void DrawLegend(const std::vector<Series>& series, int x, int y, cv::Mat* image) {
+  for (auto s = series.rbegin(); s != series.rend(); ++s) {
+    if (s->name.empty()) continue;
+    int base = 0;
+    x -= cv::getTextSize(s->name, cv::FONT_HERSHEY_SIMPLEX, kLabel, 1, &base).width;
+    DrawText(image, s->name, {x, y}, kLabel, Anchor::kLeft);
+    const int sample = s->dash > 0 ? std::max(30, 3 * s->dash) : 30;  // pixels: shows two dashes at least
+    for (int at = 0; at < sample; at += 2 * s->dash) {
+      const int end = s->dash > 0 ? std::min(sample, at + s->dash) : sample;
+      cv::line(*image, {x - 7 - sample + at, y - 5}, {x - 7 - sample + end, y - 5}, s->color, 3, cv::LINE_AA);
+      if (s->dash <= 0) break;
+    }
+    x -= sample + 20;
+  }
+}
+
 }  // namespace
 
 void DrawText(cv::Mat* image, const std::string& text, cv::Point at, double size, Anchor anchor,
@@ -62,79 +149,14 @@ void DrawText(cv::Mat* image, const std::string& text, cv::Point at, double size
 
 void Chart::Draw(cv::Mat* image, const cv::Rect& where) const {
   const cv::Rect plot(where.x + 78, where.y + 36, where.width - 98, where.height - 88);
-  Range rx, ry;
-  for (const Series& s : series) {
-    for (const double v : s.x) rx.Add(v);
-    for (const double v : s.y) ry.Add(v);
-  }
-  rx.Pad();
-  ry.Pad();
-  if (from_zero) ry.low = 0;
-  if (equal_axes) {
-    const double scale = std::max((rx.high - rx.low) / plot.width, (ry.high - ry.low) / plot.height);
-    const auto widen = [&](Range* r, int pixels) {
-      const double middle = 0.5 * (r->low + r->high);
-      r->low = middle - 0.5 * scale * pixels;
-      r->high = middle + 0.5 * scale * pixels;
-    };
-    widen(&rx, plot.width);
-    widen(&ry, plot.height);
-  }
-  const auto px = [&](double x) { return plot.x + (x - rx.low) / (rx.high - rx.low) * plot.width; };
-  const auto py = [&](double y) {
-    return plot.y + plot.height - (y - ry.low) / (ry.high - ry.low) * plot.height;
-  };
-
-  const double step_x = TickStep(rx.high - rx.low, std::max(2, plot.width / 105));
-  const double step_y = TickStep(ry.high - ry.low, std::max(2, plot.height / 45));
-  for (double v = std::ceil(rx.low / step_x) * step_x; v <= rx.high; v += step_x) {
-    const int x = static_cast<int>(std::lround(px(v)));
-    cv::line(*image, {x, plot.y}, {x, plot.y + plot.height}, kGrid);
-    DrawText(image, TickText(v, step_x), {x, plot.y + plot.height + 20}, kTick, Anchor::kCenter);
-  }
-  for (double v = std::ceil(ry.low / step_y) * step_y; v <= ry.high; v += step_y) {
-    const int y = static_cast<int>(std::lround(py(v)));
-    cv::line(*image, {plot.x, y}, {plot.x + plot.width, y}, kGrid);
-    DrawText(image, TickText(v, step_y), {plot.x - 6, y + 6}, kTick, Anchor::kRight);
-  }
-  cv::rectangle(*image, plot, kAxis);
-
-  constexpr int kShift = 4;  // sub-pixel positions: curves without steps
-  const auto point = [&](const Series& s, std::size_t k) {
-    return cv::Point(static_cast<int>(std::lround(px(s.x[k]) * (1 << kShift))),
-                     static_cast<int>(std::lround(py(s.y[k]) * (1 << kShift))));
-  };
-  for (const Series& s : series) {
-    double length = 0;  // pixels, along the curve
-    for (std::size_t k = 0; k < s.x.size(); ++k) {
-      if (!s.line) {
-        cv::circle(*image, point(s, k), 2 << kShift, s.color, cv::FILLED, cv::LINE_AA, kShift);
-        continue;
-      }
-      if (k == 0 || (s.gap > 0 && s.x[k] - s.x[k - 1] > s.gap)) continue;
-      const cv::Point from = point(s, k - 1), to = point(s, k);
-      if (IsInk(s, length)) cv::line(*image, from, to, s.color, 2, cv::LINE_AA, kShift);
-      length += cv::norm(to - from) / (1 << kShift);
-    }
-  }
-  DrawText(image, title, {plot.x, where.y + 24}, kTitle, Anchor::kLeft);
+  const int head = where.y + 24;  // the line of text above the plot
+  const Axes axes = AxesOf(*this, plot);
+  DrawGrid(axes, image);
+  for (const Series& s : series) DrawSeries(s, axes, image);
+  DrawText(image, title, {plot.x, head}, kTitle, Anchor::kLeft);
   DrawText(image, x_label, {plot.x + plot.width / 2, plot.y + plot.height + 43}, kLabel, Anchor::kCenter);
-  DrawText(image, y_label, {where.x + 6, where.y + 24}, kLabel, Anchor::kLeft);
-  int x = plot.x + plot.width;
-  for (auto s = series.rbegin(); s != series.rend(); ++s) {  // legend, right-aligned above the plot
-    if (s->name.empty()) continue;
-    int base = 0;
-    x -= cv::getTextSize(s->name, cv::FONT_HERSHEY_SIMPLEX, kLabel, 1, &base).width;
-    DrawText(image, s->name, {x, where.y + 24}, kLabel, Anchor::kLeft);
-    const int sample = s->dash > 0 ? std::max(30, 3 * s->dash) : 30;  // pixels: shows two dashes at least
-    for (int at = 0; at < sample; at += 2 * s->dash) {
-      const int end = s->dash > 0 ? std::min(sample, at + s->dash) : sample;
-      cv::line(*image, {x - 7 - sample + at, where.y + 19}, {x - 7 - sample + end, where.y + 19}, s->color, 3,
-               cv::LINE_AA);
-      if (s->dash <= 0) break;
-    }
-    x -= sample + 20;
-  }
+  DrawText(image, y_label, {where.x + 6, head}, kLabel, Anchor::kLeft);
+  DrawLegend(series, plot.x + plot.width, head, image);
 }
 
 }  // namespace evit::pictures
