@@ -100,14 +100,14 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
     if (frames_.size() >= kLongestDoubt) RejectFrame(&result);
     return result;
   }
-  if (!unrivaled_) unrivaled_ = Unrivaled(keyframe.seq, &result);
+  if (!unrivaled_) unrivaled_ = RuleOutRivals(&result);
   if (!unrivaled_) return result;
   result.status = Result::Status::kLocalized;
   result.reason = "localising high-rate frames";
-  // A chain that may be false moves no anchor: where it ends nothing would be left of where the body was.
+  // Only now the anchor moves: were the chain false, the anchor would have lost where the body was.
   rejected_ = 0;
   anchor_.Start(fit.T_map_body, state_.velocity);
-  if (ReadyToAlign() && Unrivaled(keyframe.seq, &result)) Align(&result);
+  if (ReadyToAlign() && RuleOutRivals(&result)) Align(&result);
   return result;
 }
 
@@ -124,17 +124,23 @@ bool Bootstrapper::Found() const {
          MeanSignificance() >= kFoundSignificance;
 }
 
-// A false lock may look as sure as the right one while no other is known: before a first pose is told, and
-// again before the window takes over, none may explain the newest frame as well. Where another explains it
-// better the chain starts again from there.
-bool Bootstrapper::Unrivaled(std::int64_t seq, Result* result) {
-  const SurfaceField& field = *frames_.back().field;
+// The pose that explains the newest frame best beside the chain's own.
+StartRival Bootstrapper::StrongestRival(const AlignmentPoints& points) const {
+  const LocalizedFrame& newest = frames_.back();
   StartRival rival;
   for (int k = 0; k < kRivalSearches; ++k) {
-    const StartRival other =
-        FindRival(alignment_, field, result->points, state_.T_map_body, kStart, seq + k * kOtherPlaces);
+    const StartRival other = FindRival(alignment_, *newest.field, points, state_.T_map_body, kStart,
+                                       newest.seq + k * kOtherPlaces);
     if (other.distinct && (!rival.distinct || other.significance < rival.significance)) rival = other;
   }
+  return rival;
+}
+
+// A false lock may look as certain as the right pose while no other is known: before the first pose is
+// reported, and again before the window takes over, no other pose may explain the newest frame as well. False
+// where one does; where one explains it better the chain starts again from there.
+bool Bootstrapper::RuleOutRivals(Result* result) {
+  const StartRival rival = StrongestRival(result->points);
   if (!rival.distinct || rival.significance > 0) return true;
   result->reason = "another pose explains the events as well";
   if (rival.significance < -kPreferredSignificance) {

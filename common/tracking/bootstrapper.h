@@ -10,6 +10,7 @@
 #include "common/tracking/keyframe_input.h"
 #include "common/tracking/point_selector.h"
 #include "common/tracking/sliding_window.h"
+#include "common/tracking/start_search.h"
 #include "common/tracking/visual_inertial_alignment.h"
 
 namespace evit {
@@ -62,7 +63,8 @@ class Bootstrapper {
   Eigen::Vector3d RecentVelocity() const;
   bool ReadyToAlign() const;
   bool Found() const;
-  bool Unrivaled(std::int64_t seq, Result* result);
+  StartRival StrongestRival(const AlignmentPoints& points) const;
+  bool RuleOutRivals(Result* result);
   void Align(Result* result);
 
   Rig rig_;

@@ -113,7 +113,8 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
   Result result;
   const double significance =
       AlignmentSignificance(alignment_, *newest.field, newest.points, newest.state.T_map_body);
-  const std::string wrong = newest.points.size() > 0 ? WhyFalseStart(keyframe.t, significance) : "";
+  if (newest.points.size() > 0) AddSignificance(significance);
+  const std::string wrong = newest.points.size() > 0 ? WhyFalseStart(keyframe.t) : "";
   result.coasting = WhyCoast(keyframe, out->quality, significance);
   if (result.coasting.empty()) {
     aligned_at_ = keyframe.t;
@@ -125,7 +126,7 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
   ReportUncertainty(rate, out);
 
   const std::optional<SE3> rival = keyframe.n_events >= options_.min_events
-                                       ? Rival(keyframe, rate, !result.coasting.empty())
+                                       ? SearchRival(keyframe, rate, !result.coasting.empty())
                                        : std::nullopt;
   const std::string impossible = WhyImplausible(newest.state, options_.failure);
   result.failure = !solve.usable         ? "the solver failed"
@@ -139,7 +140,7 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
     result.restart = BodyState();
     result.restart.T_map_body = predicted.back().T_map_body;
   } else if (!wrong.empty()) {
-    // Neither has its velocity been the body's.
+    // Its velocity is as false as its pose.
     result.restart = BodyState();
     result.restart.T_map_body = newest.state.T_map_body;
   } else if (rival) {
@@ -160,13 +161,18 @@ std::string WindowTracker::WhyCoast(const KeyframeInput& keyframe, const Alignme
   return "";
 }
 
-// Why a start that looked right was none after all; empty while it may be. Later the IMU vouches for the
-// pose: events may then say little for a while, as where half of the map is missing.
-std::string WindowTracker::WhyFalseStart(Utime t, double significance) {
-  constexpr Utime kProbation = 1'000'000;  // us
-  constexpr int kMean = 10, kFewest = 5;   // keyframes
+void WindowTracker::AddSignificance(double significance) {
+  constexpr int kMean = 10;  // keyframes
   n_significances_ = std::min(n_significances_ + 1, kMean);
   mean_significance_ += (significance - mean_significance_) / n_significances_;
+}
+
+// Why a start that looked right is a false one; empty while it may be right. Only during the first second:
+// later the IMU confirms the pose, and events may say little for a while, as where half of the map is
+// missing.
+std::string WindowTracker::WhyFalseStart(Utime t) const {
+  constexpr Utime kProbation = 1'000'000;  // us
+  constexpr int kFewest = 5;               // keyframes
   if (started_at_ == 0 || t - started_at_ > kProbation || n_significances_ < kFewest ||
       mean_significance_ >= kFollowSignificance) {
     return "";
@@ -174,9 +180,10 @@ std::string WindowTracker::WhyFalseStart(Utime t, double significance) {
   return "the map lies on the events no better than at a false pose";
 }
 
-// The pose that should be tracked instead of the newest keyframe's, once it is sure.
-std::optional<SE3> WindowTracker::Rival(const KeyframeInput& keyframe, const Eigen::Vector3d& rate,
-                                        bool coasting) {
+// From time to time, looks for a pose that explains the events better than the newest keyframe's; returned
+// once several searches have confirmed it.
+std::optional<SE3> WindowTracker::SearchRival(const KeyframeInput& keyframe, const Eigen::Vector3d& rate,
+                                              bool coasting) {
   if (!rivals_.Due(keyframe.t, coasting)) return std::nullopt;
   const AlignmentPoints points = points_->Select(state(), rate, points_->affordable(), keyframe.seq);
   if (points.size() < kMinPoints) return std::nullopt;

@@ -17,8 +17,8 @@
 namespace evit {
 
 /// The tracker at work (paper Sec. III-D): each keyframe is predicted, aligned with the map together with
-/// those before it in the sliding window, and judged. Where its events say nothing of the pose the IMU alone
-/// carries it for a while.
+/// those before it in the sliding window, and accepted or rejected. While events say nothing about the pose,
+/// the IMU alone carries it for a while.
 class WindowTracker {
  public:
   /// `points` must outlive this.
@@ -27,7 +27,7 @@ class WindowTracker {
 
   /// With the nodes and the prior on the first of them that bootstrapping found.
   void Start(std::deque<WindowNode> nodes, const StatePrior& prior);
-  /// With one keyframe of which all is known already (`information`: inverse covariance of its state).
+  /// With one keyframe whose state is known (`information`: its inverse covariance).
   void Start(Utime t, const BodyState& state, const Matrix15d& information);
 
   /// State at a keyframe that follows the newest, by the motion model.
@@ -44,7 +44,7 @@ class WindowTracker {
   /// Fills what `out` says of how well the newest state is known. `rate`: rad/s, body frame.
   void ReportUncertainty(const Eigen::Vector3d& rate, TrackerOutput* out) const;
 
-  /// us: between the window's keyframes, in the mean; 0 where there is one alone.
+  /// us: mean time between the window's keyframes; 0 where there is only one.
   Utime MeanInterval() const;
 
   void set_solve_budget(double seconds) { window_.set_time_budget(seconds); }
@@ -58,8 +58,9 @@ class WindowTracker {
   WindowNode PredictedNode(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) const;
   std::string WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality,
                        double significance) const;
-  std::string WhyFalseStart(Utime t, double significance);
-  std::optional<SE3> Rival(const KeyframeInput& keyframe, const Eigen::Vector3d& rate, bool coasting);
+  void AddSignificance(double significance);
+  std::string WhyFalseStart(Utime t) const;
+  std::optional<SE3> SearchRival(const KeyframeInput& keyframe, const Eigen::Vector3d& rate, bool coasting);
   std::string WhyLost(const std::string& coasting, const Matrix6d& covariance) const;
 
   Rig rig_;
