@@ -22,7 +22,6 @@ void SendWindow::Restart(std::int64_t stream_epoch) {
   items_.clear();
   cursor_ = 0;
   under_way_ = 0;
-  acknowledged_ = 0;
   probing_ = false;
   patience_us_ = timeout_us_;
   for (auto& [name, consumer] : consumers_) consumer.next = {0, 0};
@@ -70,7 +69,6 @@ void SendWindow::Release(std::int64_t now_us) {
       under_way_ -= items_.front().bytes;
     }
     items_.pop_front();
-    ++acknowledged_;
     moved = true;
   }
   if (!moved) return;

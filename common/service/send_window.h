@@ -67,7 +67,6 @@ class SendWindow {
     return items_.empty() ? otherwise : items_.front().source;
   }
   std::int64_t bytes_under_way() const { return under_way_; }
-  std::int64_t acknowledged() const { return acknowledged_; }
 
  private:
   struct Consumer {
@@ -85,9 +84,8 @@ class SendWindow {
   std::int64_t stream_epoch_ = -1;
   std::array<std::int64_t, 2> sent_ = {0, 0};  // seq of the next new message of each stream
   std::deque<Item> items_;                     // not acknowledged by all
-  std::size_t cursor_ = 0;         // items before it are under way, from it on they wait to be sent again
-  std::int64_t under_way_ = 0;     // bytes of the items before the cursor
-  std::int64_t acknowledged_ = 0;  // messages of this stream
+  std::size_t cursor_ = 0;      // items before it are under way, from it on they wait to be sent again
+  std::int64_t under_way_ = 0;  // bytes of the items before the cursor
   std::int64_t moved_us_ = 0;
   std::int64_t patience_us_ = 0;
   bool probing_ = false;

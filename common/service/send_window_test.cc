@@ -53,7 +53,6 @@ TEST_F(SendWindowTest, TheSlowestConsumerSetsTheBound) {
   EXPECT_EQ(window_.first_unacknowledged(0), 101U);
   window_.OnCredit(Credit("b", 2, 0), 0);
   EXPECT_TRUE(window_.all_acknowledged());
-  EXPECT_EQ(window_.acknowledged(), 2);
   EXPECT_EQ(window_.first_unacknowledged(9), 9U);
 }
 
@@ -80,9 +79,9 @@ TEST_F(SendWindowTest, ImpossibleStaleAndOvertakenCreditsChangeNothing) {
   window_.OnCredit(Credit("a", 3, 0, kEpoch - 1), 0);
   window_.OnCredit(Credit("b", 3, 0), 0);
   window_.OnCredit(Credit("b", 1, 0), 0);  // overtaken by the one before
-  EXPECT_EQ(window_.acknowledged(), 0);
+  EXPECT_EQ(window_.bytes_under_way(), 30);
   window_.OnCredit(Credit("a", 3, 0), 0);
-  EXPECT_EQ(window_.acknowledged(), 3);
+  EXPECT_TRUE(window_.all_acknowledged());
 }
 
 TEST_F(SendWindowTest, GoesBackAfterTheTimeoutWithOneMessageAsProbe) {
