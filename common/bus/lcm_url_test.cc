@@ -7,7 +7,7 @@
 namespace evit {
 namespace {
 
-TEST(LcmUrl, Parses) {
+TEST(LcmUrl, NamesGroupHostPortAndReceiveBuffer) {
   const LcmUrl url = ParseLcmUrl("udpm://239.1.2.3:7000?ttl=0&recv_buf_size=100000");
   EXPECT_TRUE(url.multicast);
   EXPECT_EQ(url.group, "239.1.2.3");

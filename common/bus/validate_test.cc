@@ -27,20 +27,20 @@ void ExpectRefused(const char* field, const std::function<void(Message*)>& chang
   EXPECT_NE(why.find(field), std::string::npos) << why;
 }
 
-TEST(Validate, StampOfEveryMessage) {
+TEST(Validate, RefusesStampsAndNumbersOutOfRange) {
   ExpectRefused<stream_end_t>("utime", [](auto* m) { m->utime = std::numeric_limits<std::int64_t>::min(); });
   ExpectRefused<stream_end_t>("seq", [](auto* m) { m->seq = -1; });
   ExpectRefused<stream_end_t>("number of messages", [](auto* m) { m->n_imu_messages = -1; });
 }
 
-TEST(Validate, BodyPose) {
+TEST(Validate, RefusesABodyPoseThatIsNone) {
   ExpectRefused<body_pose_t>("position", [](auto* m) { m->position[2] = kNaN; });
   ExpectRefused<body_pose_t>("velocity", [](auto* m) { m->velocity[0] = kInfinity; });
   ExpectRefused<body_pose_t>("orientation", [](auto* m) { m->orientation[3] = kNaN; });
   ExpectRefused<body_pose_t>("orientation", [](auto* m) { m->orientation[3] = 0.71; });
 }
 
-TEST(Validate, Events) {
+TEST(Validate, RefusesEventsUnsortedOrBelowZero) {
   ExpectRefused<event_packet_t>("dt_us[0]", [](auto* m) { m->dt_us[0] = -1; });
   ExpectRefused<event_packet_t>("dt_us", [](auto* m) { m->dt_us[4] = 0; });
   ExpectRefused<event_packet_t>("coordinate", [](auto* m) { m->x[2] = -1; });
@@ -48,14 +48,14 @@ TEST(Validate, Events) {
   ExpectRefused<event_packet_t>("polarity", [](auto* m) { m->polarity[3] = 2; });
 }
 
-TEST(Validate, Imu) {
+TEST(Validate, RefusesImuSamplesUnsortedOrNotFinite) {
   ExpectRefused<imu_batch_t>("sample_utime", [](auto* m) { m->sample_utime[3] = m->sample_utime[2]; });
   ExpectRefused<imu_batch_t>("utime", [](auto* m) { m->utime -= 1; });
   ExpectRefused<imu_batch_t>("gyro", [](auto* m) { m->gyro[1][2] = kNaN; });
   ExpectRefused<imu_batch_t>("accel", [](auto* m) { m->accel[4][0] = kInfinity; });
 }
 
-TEST(Validate, Keyframe) {
+TEST(Validate, RefusesAKeyframeThatContradictsItself) {
   ExpectRefused<keyframe_t>("surface_size", [](auto* m) { m->width += 1; });
   ExpectRefused<keyframe_t>("width", [](auto* m) { m->width = -m->width, m->height = -m->height; });
   ExpectRefused<keyframe_t>("previous_utime", [](auto* m) { m->previous_utime = m->utime + 1; });
@@ -66,7 +66,7 @@ TEST(Validate, Keyframe) {
   ExpectRefused<keyframe_t>("from_utime", [](auto* m) { m->from_utime = m->utime + 1; });
 }
 
-TEST(Validate, PhotometricMap) {
+TEST(Validate, RefusesViewsWithoutSizeOrDepth) {
   ExpectRefused<map_view_t>("size", [](auto* m) { m->width += 1; });
   ExpectRefused<map_view_t>("width", [](auto* m) { m->width = -m->width, m->height = -m->height; });
   ExpectRefused<map_view_t>("min_depth", [](auto* m) { m->min_depth = 0; });
@@ -78,7 +78,7 @@ TEST(Validate, PhotometricMap) {
   ExpectRefused<view_query_t>("min_depth", [](auto* m) { m->min_depth = 0; });
 }
 
-TEST(Validate, Map) {
+TEST(Validate, RefusesMapQueriesAndAnswersThatCannotBe) {
   ExpectRefused<map_points_t>("xyz", [](auto* m) { m->xyz[1][1] = std::numeric_limits<float>::quiet_NaN(); });
   ExpectRefused<map_points_t>("id", [](auto* m) { m->id[0] = 1000; });
   ExpectRefused<map_points_t>("n_visible", [](auto* m) { m->n_visible = 1; });
@@ -90,7 +90,7 @@ TEST(Validate, Map) {
   ExpectRefused<map_query_t>("max_points", [](auto* m) { m->max_points = -1; });
 }
 
-TEST(Validate, TrackerAndWindow) {
+TEST(Validate, RefusesTrackerMessagesOutOfRange) {
   ExpectRefused<tracker_mode_t>("mode", [](auto* m) { m->mode = 3; });
   ExpectRefused<tracker_mode_t>("resend", [](auto* m) { m->resend = 2; });
   ExpectRefused<tracker_mode_t>("keyframe_seq", [](auto* m) { m->keyframe_seq = -2; });
@@ -107,7 +107,7 @@ TEST(Validate, TrackerAndWindow) {
   ExpectRefused<window_state_t>("inlier_share", [](auto* m) { m->inlier_share = 1.01; });
 }
 
-TEST(Validate, ControlAndStatus) {
+TEST(Validate, RefusesControlAndStatusOutOfRange) {
   ExpectRefused<replay_control_t>("command", [](auto* m) { m->command = 4; });
   ExpectRefused<replay_control_t>("speed", [](auto* m) { m->speed = -1; });
   ExpectRefused<replay_control_t>("speed", [](auto* m) { m->speed = kNaN; });

@@ -31,7 +31,7 @@ class TumFile : public ::testing::Test {
   std::string path_;
 };
 
-TEST_F(TumFile, RoundTrip) {
+TEST_F(TumFile, WhatIsWrittenReadsBack) {
   Trajectory written;
   for (int k = 0; k < 50; ++k) {
     written.push_back(

@@ -16,7 +16,7 @@ TEST(DecimalTimeTest, EveryMicrosecondOfTodaysDatesSurvives) {
   }
 }
 
-TEST(DecimalTimeTest, Forms) {
+TEST(DecimalTimeTest, SignsAndPointsAreReadAndOtherTextRefused) {
   const auto parse = [](const std::string& text) {
     Utime t = 0;
     EXPECT_TRUE(ParseDecimalTime(text, TimeUnit::kSeconds, &t)) << text;

@@ -137,7 +137,7 @@ TEST(Camera, ContainsCountsThePixelCentres) {
   EXPECT_FALSE(camera.Contains({std::nan(""), 5}));
 }
 
-TEST(Camera, ModelNames) {
+TEST(Camera, ModelNamesReadBackAndUnknownOnesAreRefused) {
   Camera::Model model = Camera::Model::kEquidistant;
   EXPECT_TRUE(CameraModelFromName("radtan", &model));
   EXPECT_STREQ(CameraModelName(model), "plumb_bob");

@@ -68,7 +68,7 @@ TEST(LoadMapTest, SurveyCoordinatesKeepTheirMillimetresWhenMoved) {
   }
 }
 
-TEST(TextMapTest, Broken) {
+TEST(TextMapTest, ABrokenFileIsRefusedByItsFault) {
   EXPECT_THAT(LoadError("1 2 3\n4 5\n"), HasSubstr("line:2"));
   EXPECT_THAT(LoadError("# c\n1 2 3\n4 five 6\n"), HasSubstr("line:3"));
   EXPECT_THAT(LoadError("# nothing\n"), HasSubstr("the map is empty"));

@@ -56,7 +56,7 @@ bool Decompress(const std::string& in, std::size_t size, std::string* out) {
                        reinterpret_cast<std::uint8_t*>(out->data()), size);
 }
 
-TEST(LzfTest, KnownVectors) {
+TEST(LzfTest, LiteralsAndReferencesAreUnpacked) {
   std::string out;
   // Three literals.
   EXPECT_TRUE(Decompress(std::string("\x02", 1) + "abc", 3, &out));
@@ -262,7 +262,7 @@ TEST(PcdTest, IntegerCoordinates) {
               point);
 }
 
-TEST(PcdTest, BrokenHeaders) {
+TEST(PcdTest, ABrokenHeaderIsRefusedByItsFault) {
   const auto error = [](const std::string& fields, const std::string& sizes, const std::string& types,
                         const std::string& counts, std::size_t n, const std::string& data) {
     return LoadError(Header(fields, sizes, types, counts, n, data) + std::string(100, '1'));
@@ -281,7 +281,7 @@ TEST(PcdTest, BrokenHeaders) {
   EXPECT_THAT(LoadError("# .PCD v0.7\nFIELDS x y z\nPOINTS 3\n"), HasSubstr("no DATA line"));
 }
 
-TEST(PcdTest, BrokenAscii) {
+TEST(PcdTest, ABrokenTextRowIsRefusedByItsFault) {
   const std::string head = Header("x y z", "4 4 4", "F F F", "1 1 1", 2, "ascii");
   EXPECT_THAT(LoadError(head + "1 2 3\n"), HasSubstr("2 points announced, 1 found"));
   EXPECT_THAT(LoadError(head + "1 2 3\n4 5\n"), HasSubstr("ends too early"));

@@ -25,7 +25,7 @@ std::string Elements(int vertices) {
          "property float32 z\nelement face 1\nproperty list uchar int vertex_indices\n";
 }
 
-TEST(PlyTest, Ascii) {
+TEST(PlyTest, AsciiGivesTheVerticesAmongOtherElements) {
   const LoadedMap loaded = Load(Header("ascii", Elements(2)) +
                                 "0.5 3 1 2 3\n255 -2 1.5 2 0.5 0.5 3\n0 0.001 0.25 0 -7\n3 0 1 0\n");
   EXPECT_EQ(loaded.map.points, kPlyPoints);
@@ -75,7 +75,7 @@ TEST(PlyTest, OldMacLineEndsAndUpperCase) {
   EXPECT_THAT(Load(binary).map.points, ElementsAre(Eigen::Vector3f(1, 2, 3)));
 }
 
-TEST(PlyTest, Broken) {
+TEST(PlyTest, ABrokenFileIsRefusedByItsFault) {
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
   EXPECT_THAT(LoadError("ply\nformat ascii 1.0\nelement vertex 1\n"), HasSubstr("no end_header"));
   EXPECT_THAT(LoadError(Header("ebcdic", "element vertex 1\n" + xyz) + "1 2 3"), HasSubstr("not known"));

@@ -30,7 +30,7 @@ TEST_F(ConfigCommand, ShowsWhereAValueWasSet) {
   EXPECT_THAT(Config("show --markdown").output, HasSubstr("| `size` | `5` | 2 to 50 keyframes |"));
 }
 
-TEST_F(ConfigCommand, ChecksFiles) {
+TEST_F(ConfigCommand, CheckAcceptsGoodFilesAndNamesTheFaultOfOthers) {
   EXPECT_EQ(Config("check " + Write("good.textproto", "evt { }")).code, 0);
   const Result result = Config("check " + Write("bad.textproto", "evt { }\npoint { }"));
   EXPECT_EQ(result.code, 1);

@@ -83,7 +83,7 @@ TEST(MapCommandTest, TopViewIsDrawn) {
   EXPECT_THAT(result.output, HasSubstr("/nowhere/view.png"));
 }
 
-TEST(MapCommandTest, BadInputFails) {
+TEST(MapCommandTest, BadInputFailsNamingTheOption) {
   const TemporaryFile empty("", "empty.pcd"), in(Cloud(0.02), "in.txt");
   EXPECT_EQ(Map("info " + empty.path()).code, 1);
   EXPECT_EQ(Map("info /nowhere/map.pcd").code, 1);

@@ -37,12 +37,14 @@ void ExpectExample(const std::string& command) {
   EXPECT_EQ(publisher.counts().late + publisher.counts().outside + publisher.counts().invalid, 0);
 }
 
-TEST(FeedExamples, PythonsIsADriver) {
+TEST(FeedExamples, ThePythonExampleFeedsEventsAndImu) {
   if (std::system("python3 --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no python3";
   ExpectExample("python3 '" + test::SourcePath("docs/examples/feed_camera.py") + "'");
 }
 
-TEST(FeedExamples, CppsIsADriver) { ExpectExample("'" + test::ProgramPath("feed_camera_example") + "'"); }
+TEST(FeedExamples, TheCppExampleFeedsEventsAndImu) {
+  ExpectExample("'" + test::ProgramPath("feed_camera_example") + "'");
+}
 
 }  // namespace
 }  // namespace evit::feed

@@ -91,7 +91,7 @@ TEST_F(RenderRunTest, AGifAndAnMp4HoldEachMoment) {
   }
 }
 
-TEST_F(RenderRunTest, APartOfIt) {
+TEST_F(RenderRunTest, OnlyTheChosenSecondsAreDrawn) {
   Record();
   options_.seconds = {0.5, 0.8};
   EXPECT_EQ(RenderRun(options_), 4);

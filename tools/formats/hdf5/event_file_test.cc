@@ -51,7 +51,7 @@ EventArray ReadAll(const std::string& path) {
   return AllEvents(&recording, 640, 480);
 }
 
-TEST_F(EventFileTest, RoundTrip) {
+TEST_F(EventFileTest, WhatIsWrittenReadsBack) {
   const EventArray events = Events(300'000);
   const std::string path = Write(events);
   EXPECT_FALSE(std::filesystem::exists(path + ".part"));
