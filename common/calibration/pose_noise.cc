@@ -33,8 +33,8 @@ double CorrelationTime(const std::vector<std::vector<double>>& axes) {
   return time;
 }
 
-// The same from how much means over pieces spread, against those of white noise: errors that wander slowly
-// but are small beside the white ones die away in the autocorrelation at once, and yet are what remains in a
+// The same from the spread of means over pieces, compared with that of white noise. Errors that wander slowly
+// and are small beside the white ones hardly show in the autocorrelation, and yet they are what remains in a
 // mean.
 double BlockTime(const std::vector<std::vector<double>>& axes) {
   double power = 0, most = 1;

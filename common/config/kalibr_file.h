@@ -15,7 +15,7 @@ bool IsKalibr(const std::string& path);
 /// Kalibr's camchain-imucam.yaml with the IMU's noise of imu.yaml (given behind a comma, else the file of
 /// that name beside it: X-camchain-imucam.yaml and X-imu.yaml, or imu.yaml). T_cam_imu is inverted,
 /// timeshift_cam_imu becomes microseconds. Without an IMU file the noise is that of a consumer IMU
-/// (ConsumerImuNoise), 200 Hz. Throws ConfigError naming file, key and remedy.
+/// (kConsumerImuNoise), 200 Hz. Throws ConfigError naming file, key and remedy.
 Rig LoadKalibrRig(const std::string& path);
 
 /// Where the rig's figures come from, for people.

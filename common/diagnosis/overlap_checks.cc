@@ -228,11 +228,11 @@ Findings CheckOverlap(const MapIndex& map, const Rig& rig, const Trajectory& tru
   for (const Assumption& assumption : all) {
     World world = as_is;
     assumption.make(&world);
-    // A look at a third of them spares the rest where it is hopeless.
+    // A third of the excerpts shows whether the assumption is hopeless.
     if (Measure(map, world, excerpts, 3).kappa() < 0.8 * best) continue;
     const MapEventOverlap overlap = Measure(map, world, excerpts);
     if (2 * overlap.views < static_cast<std::int64_t>(excerpts.instants().size())) continue;
-    // A first one among equals: they come with the usual ones first.
+    // Of equally good ones the first: the usual assumptions come first.
     if (overlap.kappa() > best + 0.02) best = overlap.kappa(), better = &assumption;
   }
   const std::string figure =

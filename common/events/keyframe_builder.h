@@ -52,7 +52,7 @@ class KeyframeBuilder {
   std::int64_t next_seq() const { return next_seq_ - static_cast<std::int64_t>(pending_.size()); }
 
   const StreamMerger::Counters& counters() const { return merger_.counters(); }
-  std::int64_t events_overrun() const { return events_overrun_; }
+  std::int64_t events_overrun() const { return events_overrun_; }  // passed over: too many waited
 
  private:
   struct Pending {  // decided, not drawn yet

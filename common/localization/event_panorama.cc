@@ -167,9 +167,9 @@ void Normalise(double width, Pictures* held) {
   }
 }
 
-// Mean of each row of a direction's picture over what is in sight, drawn towards that of the whole picture
-// where it is little: edges and events crowd at the horizon of any large room, which says nothing about the
-// place.
+// Mean of each row of a direction's picture over what is in sight; where little is, drawn towards the mean of
+// the whole picture. To be subtracted: edges and events crowd at the horizon of any large room, which says
+// nothing about the place.
 std::array<double, kRows> MeansInSight(const Pictures& near, const Seen& seen, int direction) {
   std::array<double, kRows> sums{}, counts{};
   double sum = 0, count = 0;

@@ -10,8 +10,8 @@ namespace evit {
 namespace {
 
 constexpr std::size_t kFewest = 6;
-// m: of a pose from its events. On real recordings poses err by half to one centimetre, and as the view
-// changes: neighbours alike, so that what remains of a fit does not show it.
+// m: error of a pose found from its events. On real recordings it is 5 to 10 mm and changes only with the
+// view: neighbouring poses err alike, so that the residuals of a fit do not show it.
 constexpr double kPoseSigma = 0.01;
 constexpr double kTurnSigma = 0.005;  // rad: the same, of its rotation
 constexpr double kGyroBias = 0.01;    // rad/s, of a calibrated sensor

@@ -41,7 +41,7 @@ void SortOut(std::vector<PlaceCandidate>* candidates, std::size_t count) {
   *candidates = std::move(kept);
 }
 
-// Of more places more look alike by chance, and the right one ranks lower.
+// The more places there are, the more look alike by chance, and the lower the right one ranks.
 std::size_t MatchesOf(const PlaceIndex& index, std::size_t matches) {
   const double growth = std::sqrt(static_cast<double>(index.places().size()) / kUsualPlaces);
   return static_cast<std::size_t>(static_cast<double>(matches) * std::max(1.0, growth));

@@ -95,8 +95,8 @@ class View {
   }
 
  private:
-  // Of a crowd of edges so many, evenly chosen, as an emptier part of the view may have too: edges beside
-  // each other meet the same events together, and of two places the one that sees more would win by that.
+  // Of a crowd of edges keeps as many, evenly chosen, as an emptier part of the view may have: neighbouring
+  // edges meet the same events, so that a place would score well only because it sees a crowd.
   static void FlattenCrowds(std::vector<PlaceIndex::Edge>* visible) {
     constexpr int kAcross = kColumns / kPatch;
     const auto patch_of = [](PlaceIndex::Edge e) {

@@ -54,7 +54,7 @@ void SelfLocator::SetPrior(const PlacePrior& prior) {
   options_.prior = prior;
   const bool dropped = places_.DropUnless(
       [&prior](const SE3& T_map_body) { return prior.Allows(T_map_body, kPriorSlack, kPriorSlack); });
-  // The answer would be about what is given up, too. Where nothing is left it is looked for at once.
+  // The pending question is about dropped places too. If none is left, the whole map is searched at once.
   if (dropped && found_at_ == 0) question_.reset();
   if (dropped && places_.empty()) searched_ = 0;
 }

@@ -7,8 +7,8 @@
 namespace evit {
 
 struct DenoiseSettings {
-  double radius = 0.02;    // m: neighbours that vouch for a point
-  int min_neighbours = 5;  // within it, the point itself included: fewer, and it stays as it is or goes
+  double radius = 0.02;    // m: within which neighbours count
+  int min_neighbours = 5;  // including the point itself; with fewer it stays as it is, or is dropped
   // Median over the map: in a sparser map a lonely point is nothing unusual.
   double min_usual_neighbours = 10;
 };

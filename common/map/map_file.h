@@ -27,8 +27,8 @@ struct MapChange {
 /// unreadable, truncated, wrong counts, no point left.
 LoadedMap LoadMap(const std::string& path, const MapChange& change = {});
 
-/// Writes a binary PCD (x y z float, and where the map has them the attributes, under their
-/// names), atomically. Throws std::runtime_error naming the file.
+/// Writes a binary PCD, atomically: x, y, z and, where the map has them, the attributes, as floats under
+/// their names. Throws std::runtime_error naming the file.
 void WritePcd(const std::string& path, const PointMap& map);
 /// The same as a binary PLY where the name ends in .ply.
 void WriteMap(const std::string& path, const PointMap& map);

@@ -41,9 +41,9 @@ void Merge(const DepthGrid& a, const DepthGrid& b, int shift, DepthGrid* out) {
   }
 }
 
-// Per cell the depth beyond which a point in it is hidden: the third smallest of the quadrants' second
-// smallest depths. A quadrant is three cells by two, beside the cell's row or column: cells on an axis speak
-// for one quadrant, the own cell for none.
+// For each cell the depth beyond which a point in it is hidden: of the second smallest depth in each of four
+// quadrants, the third smallest. A quadrant is three cells by two: a cell in the same row or column belongs
+// to one quadrant, the cell itself to none.
 std::vector<float> HidingDepths(const DepthGrid& cells, int columns, int rows) {
   const int s = cells.stride;
   DepthGrid wide2(columns, rows), wide3(columns, rows), flat(columns, rows), tall(columns, rows);

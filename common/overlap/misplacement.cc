@@ -127,7 +127,7 @@ class Fitter {
       value += Step(kind, value);
       offer(value);
     }
-    // Where a value is hardly better than none, any noise decides which one: then it is none.
+    // Where the best value is hardly better than zero, noise has chosen it: then the answer is zero.
     const Fitness none = At(kind, Eigen::Vector3d::Zero());
     if (best.score < none.score + kLeastGain) return {kind, Eigen::Vector3d::Zero(), none.share};
     return {kind, best_value, best.share};

@@ -31,8 +31,8 @@ void CreditSender::Consumed(std::int64_t stream_epoch, std::int64_t next_events_
 }
 
 std::int64_t CreditSender::BytesPerCredit() const {
-  // The sender's window is a quarter of the receive buffer: where that is small, 64 kB may never be under
-  // way, and the stream would crawl from one 50 ms credit to the next.
+  // The sender's window is a quarter of the receive buffer. If that is small, 64 kB are never under way, and
+  // the stream would have to wait 50 ms for each credit.
   const std::int64_t buffer = bus_->granted_receive_buffer();
   return buffer > 0 ? std::clamp<std::int64_t>(buffer / 16, 4096, kBytes) : kBytes;
 }

@@ -13,8 +13,8 @@
 
 namespace evit {
 
-/// Collects a service's health and sends it as STATUS: at 1 Hz, and at once when the state
-/// changes. While messages get lost, "running" is sent as "degraded", and the detail says what is lost.
+/// Collects a service's health and sends it as STATUS: at 1 Hz, and at once when the state changes. While
+/// messages are lost, "running" is sent as "degraded", and the detail says on which channels.
 class StatusReporter {
  public:
   using Clock = std::function<std::chrono::steady_clock::time_point()>;

@@ -22,19 +22,19 @@ double AlignmentSignificance(const AlignmentSettings& settings, const SurfaceFie
 double SignificanceOver(const AlignmentSettings& settings, const SurfaceField& field,
                         const AlignmentPoints& points, const SE3& a, const SE3& b);
 
-/// What a pose must reach while tracking, where the IMU vouches for it too: one that has not been searched
-/// for does so by chance once in 700 keyframes.
+/// What a pose must reach while tracking, where the IMU supports it too. A false pose that was not found by a
+/// search reaches it by chance once in 700 keyframes.
 constexpr double kTrackingSignificance = 3;
-/// Of a frame that is localised from the frame before, by its events alone.
+/// The same for a frame that is localised from the frame before, by its events alone.
 constexpr double kFollowSignificance = 4;
-/// Of the first, whose pose is the best that a wide search has found. On six real sequences the first frames
-/// at the right pose had 4.8 to 11.6, half of them over 7.4; the best of searches 80 cm and 25 degrees away
-/// from it 3.2, one in 25 over 5.
+/// The same for the first frame, whose pose is the best of a wide search. On six real sequences the first
+/// frames at the right pose had 4.8 to 11.6, half of them over 7.4; the best of searches 80 cm and 25 degrees
+/// away from it 3.2, one in 25 over 5.
 constexpr double kStartSignificance = 5;
-/// Of several frames in a row, in the mean, before a start counts as found, and for a second after it. On 15
+/// The mean of several frames in a row before a start counts as found, and for a second after it. On 15
 /// starts of five real and two simulated sequences at the right pose: 6.3 and more.
 constexpr double kFoundSignificance = 5.5;
-/// Of one pose over another, to believe in it: chance alone does so once in 20.
+/// Of one pose over another (SignificanceOver) before the first is preferred: chance reaches it once in 20.
 constexpr double kPreferredSignificance = 2;
 
 }  // namespace evit

@@ -53,7 +53,7 @@ VisibilityQuery EventOnlyTracker::NextQuery() const {
   return points_.QueryFrom(pose);
 }
 
-// Which part of the map to ask for is all that the gyro is good for here.
+// The gyro predicts only which part of the map to ask for; no pose depends on it.
 VisibilityQuery EventOnlyTracker::QueryAfter(const KeyframeInput& keyframe) const {
   if (keyframe.imu.empty()) return NextQuery();
   const Utime ahead = std::clamp<Utime>(keyframe.t - state_time_, 0, PointSelector::kFarthestAhead);

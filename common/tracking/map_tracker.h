@@ -22,7 +22,7 @@ class MapTracker {
  public:
   virtual ~MapTracker() = default;
 
-  /// Whatever it was doing: the body is here, to some centimetres and degrees.
+  /// Starts over: the body is here, to some centimetres and degrees.
   virtual void Start(const SE3& T_map_body) = 0;
   /// The same with velocity (zero: unknown) and biases, which are trusted.
   virtual void Start(const BodyState& state) = 0;
@@ -35,15 +35,15 @@ class MapTracker {
   /// The same for the keyframe after this one, before it is processed: from its IMU samples, so that the
   /// answer comes while it is being processed. For use while tracking.
   virtual VisibilityQuery QueryAfter(const KeyframeInput& keyframe) const = 0;
-  /// What to ask for where that view needs other points than there are: a view farther along the motion,
-  /// whose points do for that one too and for longer.
+  /// What to ask for where that view needs points that are not there yet: a view farther along the motion,
+  /// whose points serve both, and for longer.
   virtual VisibilityQuery QueryBeyond(const KeyframeInput& keyframe) const { return QueryAfter(keyframe); }
-  /// Whether the answer to one of these queries, the last that was added, still does for another: it need not
-  /// be asked. While tracking only.
+  /// Whether the points of `answered`, the query answered last, serve `query` as well, so that it need not be
+  /// asked. While tracking only.
   virtual bool Suffices(const VisibilityQuery& /*answered*/, const VisibilityQuery& /*query*/) const {
     return false;
   }
-  /// Answer to either. ids: indices into the map; points: map frame, m.
+  /// The answer to one of these queries. ids: indices into the map; points: map frame, m.
   virtual void AddVisible(const std::vector<std::int32_t>& ids,
                           const std::vector<Eigen::Vector3f>& points) = 0;
   /// Forgets all points: what comes next is another map's.

@@ -30,8 +30,8 @@ Matrix6d SystematicCovariance(const Matrix6d& alignment, double share, double ma
 }
 
 Matrix6d MisfitCovariance(const AlignmentMisfit& misfit, double share, double focal_px) {
-  // Whether an edge lies at one end of its pixels or the other no event tells: up to half a pixel either way,
-  // a quarter in the median.
+  // No event tells where within its pixel an edge lies: up to half a pixel either way, a quarter in the
+  // median.
   constexpr double kGrid = 0.25;
   const double variance_px =
       share * share * std::max(0.0, misfit.offset_px * misfit.offset_px - kGrid * kGrid);

@@ -23,8 +23,8 @@ Matrix6d SystematicCovariance(const Matrix6d& alignment, double share, double ma
 Matrix6d MisfitCovariance(const AlignmentMisfit& misfit, double share, double focal_px);
 
 /// Effect on the pose of an event latency that has not been measured (pixels' latency, clocks set by hand):
-/// the body has moved on by then. `velocity`: m/s, map frame; `rate`: rad/s, body frame;
-/// `sigma`: s.
+/// the body has moved on by then. `velocity`: m/s, map frame; `rate`: rad/s, body frame; `sigma`: of the
+/// latency, s.
 Matrix6d TimeOffsetCovariance(const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate, double sigma);
 
 /// The sum of these four, which the trackers report.

@@ -37,8 +37,8 @@ void SlidingWindow::Push(WindowNode node) {
   nodes_.push_back(std::move(node));
 }
 
-// Most of the nodes hardly move from one solve to the next, and hardly any in its last iterations. Where a
-// pose changes the points' residuals by so little the quadratic function around the last one says the same.
+// Most nodes hardly move from one solve to the next, and hardly any does in the last iterations. While a pose
+// changes the residuals by less than kSame, the quadratic function around its last evaluation is used.
 AlignmentTerm SlidingWindow::AlignNear(const SE3& T_map_body, WindowNode* node) const {
   constexpr double kSame = 3e-3;  // of a residual's standard deviation, root mean square over the points
   LocalAlignment& local = node->local;

@@ -43,9 +43,9 @@ SE3 PoseAround(const SE3& centre, const StartRange& range, int k) {
   return pose;
 }
 
-// Along the ways that the events say least about, where turning nearly makes up for moving: false poses lie
-// there, and so does the right one when the search has come upon a false one. For each way and side the pose
-// at which the points lie most surely, beyond the slope of the centre's own valley.
+// Poses along the directions that the events constrain least, where turning nearly compensates for moving:
+// false poses lie there, seen from the right one, and the right one seen from a false one. For each direction
+// and sign the pose of highest significance, beyond the slope of the centre's own valley.
 std::vector<SE3> PosesAlongWeakWays(const AlignmentSettings& settings, const SurfaceField& field,
                                     const AlignmentPoints& points, const SE3& centre, const StartRange& range,
                                     double farthest) {

@@ -66,8 +66,8 @@ VisibilityQuery Tracker::NextQuery() const {
 
 VisibilityQuery Tracker::QueryAfter(const KeyframeInput& keyframe) const { return QueryAfter(keyframe, 0); }
 
-// Half of what the next view may be away from the one that was asked for is used up at once, the other half
-// is a reserve for what motion brings; the points then do until the view is as far on the other side.
+// The points of a query serve all views within some distance of it. This one lies half of that distance ahead
+// of the next view, so that its points last longer; the other half is a reserve against another motion.
 VisibilityQuery Tracker::QueryBeyond(const KeyframeInput& keyframe) const {
   constexpr double kLongest = 0.1;  // s: farther, a prediction is a guess
   VisibilityQuery next = QueryAfter(keyframe);

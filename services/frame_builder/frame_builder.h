@@ -17,8 +17,8 @@
 
 namespace evit {
 
-/// EVENTS and IMU in, KEYFRAME out; listens to TRACKER_MODE for the rate and the decay. What a
-/// keyframe is and how it is made is in common/events.
+/// EVENTS and IMU in, KEYFRAME out; TRACKER_MODE decides the rate and the decay. common/events makes the
+/// keyframes.
 ///
 /// Lossless: keyframe k is made with the TRACKER_MODE of keyframe k-2 and waits for it; meanwhile CREDIT
 /// holds the streams back, and keyframes without an answer are sent again. Real time: nothing waits; an

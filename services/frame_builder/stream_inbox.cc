@@ -31,7 +31,7 @@ StreamInbox::Verdict StreamInbox::Admit(M message, std::size_t bytes, SequenceCo
   const bool first_heard = counter->epoch() == -1;
   counter->Commit(message.epoch, message.seq);
   if (seen == Seen::kOld) return Verdict::kRefused;
-  // The other stream may have told of the new run already. Events and IMU of live sensors have an epoch each.
+  // The other stream may have announced this run already. Live sensors have separate epochs for both streams.
   const bool is_new =
       seen == Seen::kNewEpoch && message.epoch != epoch_ && (lossless_ || !first_heard || epoch_ == -1);
   if (is_new) {

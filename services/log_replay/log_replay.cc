@@ -19,9 +19,9 @@ constexpr std::int64_t kOverhead = 512;  // bytes: what a datagram costs the rec
 constexpr int kBurst = 64;               // messages between two looks at the bus
 constexpr std::int64_t kReportPeriodUs = 200'000;
 
-/// Bytes that may be under way: 1 MiB, or a quarter of the receive buffer where that is less, but two full
-/// packets where that leaves a third of it free: with one at a time, sender and consumer would only take
-/// turns.
+/// Bytes that may be under way: 1 MiB, or a quarter of the receive buffer where that is less, but not below
+/// two full packets if these leave three eighths of it free: with one packet at a time, sender and consumer
+/// would take turns.
 std::int64_t WindowSize(std::int64_t granted_receive_buffer) {
   if (granted_receive_buffer <= 0) return kWindow;
   // Consumers run on this host and get the buffer this process got.

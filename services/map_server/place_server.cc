@@ -31,8 +31,8 @@ void PlaceServer::OnQuery(const std::uint8_t* data, std::size_t size) {
   }
   queries_.Commit(message.epoch, message.seq);
   const std::pair<std::int64_t, std::int64_t> number(message.epoch, message.seq);
-  // Sent again because a search takes long: it is searched once, and its answer is sent again where that may
-  // have been lost.
+  // A question is sent again while its answer takes long: it is searched once, and an answer that may have
+  // been lost is sent again.
   if (number == in_work_) return;
   if (number == answered_) {
     bus_->Publish(channel_, buffer_.data(), buffer_.size());

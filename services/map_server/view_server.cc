@@ -36,8 +36,8 @@ void ViewServer::OnQuery(const std::uint8_t* data, std::size_t size) {
   }
   queries_.Commit(message.epoch, message.seq);
   const std::pair<std::int64_t, std::int64_t> number(message.epoch, message.seq);
-  // Sent again because a view takes long: it is drawn once, and its answer is sent again where that may have
-  // been lost.
+  // A query is sent again while its answer takes long: the view is drawn once, and an answer that may have
+  // been lost is sent again.
   for (const view_query_t& waiting : queue_) {
     if (number == std::make_pair(waiting.epoch, waiting.seq)) return;
   }

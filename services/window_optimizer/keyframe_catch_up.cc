@@ -15,7 +15,7 @@ void KeyframeCatchUp::Add(keyframe_t message, Clock::time_point now) {
   if (message.seq <= seq_) return;
   const std::int64_t newest = held_.empty() ? -1 : held_.rbegin()->first;
   const bool fills_a_hole = message.seq < newest;
-  // Each that was missing shows that the others are on their way; one that comes twice shows nothing.
+  // A keyframe that fills a hole shows that the others are on their way; a duplicate shows nothing.
   if (held_.emplace(message.seq, std::move(message)).second && fills_a_hole) moved_ = now;
 }
 

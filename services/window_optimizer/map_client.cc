@@ -5,8 +5,8 @@
 namespace evit {
 namespace {
 
-// An answer is waited for so long in real time, and not at all where map_server has died: that would cost
-// keyframes again and again. The tracker continues with the points at hand.
+// Real time: how long to wait for one answer, and after which silence map_server counts as dead, so that no
+// keyframe waits for it any more. The tracker continues with the points it has.
 constexpr RequestClient<MapPointsRequest>::Patience kPatience{std::chrono::milliseconds(20),
                                                               std::chrono::milliseconds(60)};
 

@@ -12,7 +12,7 @@ void AddImportCommand(CLI::App* app);
 void AddExportCommand(CLI::App* app);
 void AddFeedCommand(CLI::App* app);
 void AddMapCommand(CLI::App* app);
-/// build, check: subcommands of map.
+/// build, check, compare: subcommands of map.
 void AddMapBuild(CLI::App* map);
 void AddMapCheck(CLI::App* map);
 void AddMapCompare(CLI::App* map);

@@ -9,11 +9,12 @@
 #include "common/imu/imu_sample.h"
 
 /// Live data from any driver in any language: a stream of fixed little-endian records, one after the other.
+///
+///   event, 16 bytes: u8 1, u8 polarity (1 brighter, 0 darker), u16 column, u16 row, u16 0, i64 stamp (us)
+///   IMU sample, 64 bytes: u8 2, 7 bytes 0, i64 stamp (us), 3 x f64 angular rate (rad/s),
+///     3 x f64 specific force (m/s^2)
 namespace evit::feed {
 
-/// An event, 16 bytes:       u8 1, u8 polarity (1 brighter, 0 darker), u16 column, u16 row, u16 0, i64 stamp
-/// (us). An IMU sample, 64 bytes:  u8 2, 7 bytes 0, i64 stamp (us), 3 x f64 angular rate (rad/s), 3 x f64
-/// specific force (m/s^2).
 inline constexpr std::size_t kEventBytes = 16, kImuBytes = 64;
 
 void AppendRecord(Utime t, std::uint16_t x, std::uint16_t y, std::uint8_t p, std::string* bytes);

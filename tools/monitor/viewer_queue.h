@@ -11,8 +11,8 @@
 namespace evit::monitor {
 
 /// What waits to be sent to one viewer. Bounded: of a picture, a pose or a table only the newest is kept; of
-/// a series (window states, for plots) the newest 512. A picture is sent only
-/// when the one before it has been acknowledged: a slow viewer sees fewer of them, not older ones.
+/// a series (window states, for plots) the newest 512. A picture is sent only when the one before it has been
+/// acknowledged: a slow viewer sees fewer of them, not older ones.
 class ViewerQueue {
  public:
   /// Takes the place of what waits under the same name.

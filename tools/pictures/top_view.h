@@ -23,9 +23,8 @@ struct TopView {
 TopView DrawTopView(const PointMap& map, int side, const std::vector<Eigen::Vector2d>& also = {},
                     const std::string& height = "z");
 
-/// The same as a picture file (PNG by the name's extension). Throws std::runtime_error naming the file where
-/// it cannot be written.
-/// `height`: the name of what the colours show, where the map has been turned.
+/// The same as a picture file (PNG by the name's extension). `height`: the name of what the colours show,
+/// where the map has been turned. Throws std::runtime_error naming the file where it cannot be written.
 void WriteTopView(const std::string& path, const PointMap& map, const std::string& height = "z");
 
 }  // namespace evit::pictures

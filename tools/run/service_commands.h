@@ -11,8 +11,8 @@
 namespace evit::run {
 
 /// The command lines of the four services for a run, in the order they are started: each before those that
-/// send to it. `url`: of the bus. `inputs`: where to start, which
-/// channels of the log to play. Removes what an earlier run left for restarts.
+/// send to it. `url`: of the bus. `inputs`: where to start, which channels of the log to play. Removes what
+/// an earlier run left for restarts.
 std::vector<procman::ProcmanCommand> ServiceCommands(const RunJob& job, const std::string& url,
                                                      const RunInputs& inputs);
 
