@@ -8,6 +8,7 @@
 
 #include "tools/evit/commands.h"
 #include "tools/mapping/check_findings.h"
+#include "tools/mapping/check_pictures.h"
 #include "tools/terminal/progress_bar.h"
 
 namespace evit::commands {

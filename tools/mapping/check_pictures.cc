@@ -1,3 +1,5 @@
+#include "tools/mapping/check_pictures.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
@@ -6,7 +8,6 @@
 #include <stdexcept>
 
 #include "common/config/rig_file.h"
-#include "tools/mapping/map_check.h"
 
 namespace evit::mapping {
 namespace {

@@ -39,8 +39,4 @@ MapCheck CheckMap(const MapCheckInputs& inputs, const std::function<void(double)
 /// Figures and findings for people.
 std::string CheckText(const MapCheckInputs& inputs, const MapCheck& check);
 
-/// The views that fit best, in the middle and worst, with events, points on events and points beside them, as
-/// best.png, median.png and worst.png in `folder` (made).
-void WriteCheckPictures(const std::string& folder, const std::string& rig, const MapCheck& check);
-
 }  // namespace evit::mapping

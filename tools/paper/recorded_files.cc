@@ -1,8 +1,7 @@
-// Where a sequence of VECtor lies in a user's folder.
+#include "tools/paper/recorded_files.h"
+
 #include <filesystem>
 #include <stdexcept>
-
-#include "tools/paper/recording.h"
 
 namespace evit::paper {
 namespace {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "tools/paper/program_ids.h"
+#include "tools/paper/recorded_files.h"
 #include "tools/paper/text_files.h"
 
 namespace evit::paper {

@@ -1,9 +1,9 @@
+#include "tools/simulation/report.h"
+
 #include <fstream>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
-
-#include "tools/simulation/sequence_files.h"
 
 namespace evit::simulation {
 namespace {

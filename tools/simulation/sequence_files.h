@@ -5,8 +5,6 @@
 #include "common/geometry/rig.h"
 #include "tools/simulation/motion.h"
 #include "tools/simulation/simulated_imu.h"
-#include "tools/simulation/simulation_settings.h"
-#include "tools/simulation/simulation_summary.h"
 
 namespace evit::simulation {
 
@@ -16,7 +14,5 @@ void WriteImuFile(const std::string& path, const SimulatedImu& imu);
 void WriteGroundTruthFile(const std::string& path, const std::string& name, const Motion& motion,
                           const Rig& rig);
 void WriteTruth(const std::string& path, const Motion& motion, const SimulatedImu& imu);
-void WriteReport(const std::string& path, const SimulationSettings& settings,
-                 const SimulationSummary& summary);
 
 }  // namespace evit::simulation

@@ -16,6 +16,7 @@
 #include "tools/simulation/load_motion.h"
 #include "tools/simulation/place_in_room.h"
 #include "tools/simulation/preview.h"
+#include "tools/simulation/report.h"
 #include "tools/simulation/rgbd_views.h"
 #include "tools/simulation/room.h"
 #include "tools/simulation/sequence_files.h"
