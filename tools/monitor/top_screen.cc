@@ -111,11 +111,11 @@ Line ServiceLine(const PipelineWatch::Service& service, const procman_lcm::cmd_s
   std::string load = "                        ";
   if (process != nullptr && process->pid != 0) {
     load = FormatText("%5.0f %% %6.0f MB %6s", 100.0 * static_cast<double>(process->cpu_usage),
-                  static_cast<double>(process->mem_rss_bytes) / (1 << 20), QueueText(s).c_str());
+                      static_cast<double>(process->mem_rss_bytes) / (1 << 20), QueueText(s).c_str());
   }
   const std::string state = silent ? FormatText("silent %.0f s", age_s) : Printable(s.state);
   return {bad ? kBad : kPlain, FormatText("%-18s %-12s %s  ", Printable(s.service).substr(0, 40).c_str(),
-                                      state.substr(0, 40).c_str(), load.c_str()) +
+                                          state.substr(0, 40).c_str(), load.c_str()) +
                                    Printable(s.detail)};
 }
 
@@ -153,16 +153,18 @@ std::string TopScreen::Draw(int columns, int rows, bool color) const {
                                 "): this shows channels with the prefix given; others: --prefix"});
   const double* p = pose_.position;
   const double* v = pose_.velocity;
-  lines.push_back({kPlain, has_pose_ ? FormatText("position %7.2f %7.2f %7.2f m   speed %5.2f m/s", p[0], p[1],
-                                              p[2], std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))
-                                     : "position -   speed -"});
+  lines.push_back({kPlain, has_pose_
+                               ? FormatText("position %7.2f %7.2f %7.2f m   speed %5.2f m/s", p[0], p[1],
+                                            p[2], std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))
+                               : "position -   speed -"});
   const auto& c = window_.covariance;
   const std::string latency = latency_ms_ < 0 ? "not in real time" : FormatText("%.0f ms", latency_ms_);
   // While it looks for its pose, and while events do not count, there is nothing to say of them.
   const bool tracks = watch_->has_mode() && watch_->mode().mode == tracker_mode_t::TRACKING;
   const std::string sigma =
-      tracks ? FormatText("sigma %5.1f mm, %.2f deg", 1e3 * std::sqrt(std::max(0.0, c[0][0] + c[1][1] + c[2][2])),
-                      kDegreesPerRadian * std::sqrt(std::max(0.0, c[3][3] + c[4][4] + c[5][5])))
+      tracks ? FormatText("sigma %5.1f mm, %.2f deg",
+                          1e3 * std::sqrt(std::max(0.0, c[0][0] + c[1][1] + c[2][2])),
+                          kDegreesPerRadian * std::sqrt(std::max(0.0, c[3][3] + c[4][4] + c[5][5])))
              : "sigma -";
   const std::string points =
       tracks && window_.n_points > 0
@@ -170,7 +172,7 @@ std::string TopScreen::Draw(int columns, int rows, bool color) const {
           : "points -";
   lines.push_back({kPlain, sigma + "   " + points});
   lines.push_back({kPlain, FormatText("solve %5.1f ms   latency %s   overload %s", window_.solve_ms,
-                                  latency.c_str(), OverloadText(*watch_).c_str())});
+                                      latency.c_str(), OverloadText(*watch_).c_str())});
   lines.push_back({kPlain, ""});
   lines.push_back({kDim, "SERVICE            STATE            CPU    MEMORY  QUEUE"});
   for (const auto& [name, service] : watch_->services()) {
@@ -181,8 +183,8 @@ std::string TopScreen::Draw(int columns, int rows, bool color) const {
   for (const auto& [name, f] : watch_->channels().channels()) {
     lines.push_back({f.lost + f.invalid > 0 ? kWait : kPlain,
                      FormatText("%-20s %7.0f %10lld %8lld %8lld", name.substr(0, 40).c_str(), f.rate_hz,
-                            static_cast<long long>(f.received), static_cast<long long>(f.lost),
-                            static_cast<long long>(f.invalid))});
+                                static_cast<long long>(f.received), static_cast<long long>(f.lost),
+                                static_cast<long long>(f.invalid))});
   }
   std::string screen;
   for (std::size_t i = 0; i < std::min(lines.size(), static_cast<std::size_t>(std::max(rows, 1))); ++i) {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <regex>
 
+#include "tools/formats/import/latest_time.h"
 #include "tools/formats/import/micros_per_unit.h"
 
 namespace evit::formats {
@@ -173,12 +174,11 @@ double NpyNumber(const NpyColumn& column, const std::uint8_t* at) {
 }
 
 bool NpyTime(const NpyColumn& column, const std::uint8_t* at, TimeUnit unit, Utime* t) {
-  constexpr long double kLongest = 4e15L;  // us
   // Whole numbers of other units are dates in ns at most, which a long double holds.
   const long double number = column.kind != 'f' ? static_cast<long double>(NpyInteger(column, at))
                                                 : static_cast<long double>(NpyNumber(column, at));
   const long double value = static_cast<long double>(MicrosPerUnit(unit)) * number;
-  if (!(std::abs(value) < kLongest)) return false;
+  if (!(std::abs(value) < kLatestTime)) return false;
   *t = std::llround(value);
   return true;
 }
