@@ -18,11 +18,22 @@ pid_t ParentOf(const fs::path& process) {
   return std::atoi(text.c_str() + name_end + 4);
 }
 
-std::vector<std::string> CommandLine(const fs::path& process) {
-  std::ifstream file(process / "cmdline", std::ios::binary);
+// The words of a file in which each ends with a zero: "cmdline" or "environ".
+std::vector<std::string> WordsOf(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
   std::vector<std::string> words;
   for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
   return words;
+}
+
+bool IsProgram(const std::vector<std::string>& words, const char* name) {
+  return !words.empty() && fs::path(words[0]).filename() == name;
+}
+
+bool IsTracker(const std::vector<std::string>& words) { return IsProgram(words, "window_optimizer"); }
+
+bool IsService(const std::vector<std::string>& words) {
+  return IsTracker(words) || IsProgram(words, "map_server") || IsProgram(words, "frame_builder");
 }
 
 std::string FileOption(const fs::path& process, const std::vector<std::string>& words,
@@ -32,6 +43,33 @@ std::string FileOption(const fs::path& process, const std::vector<std::string>& 
   std::error_code error;
   const fs::path path = fs::read_symlink(process / "cwd", error) / value;
   return !error && fs::is_regular_file(path, error) ? path.string() : "";
+}
+
+void Take(const fs::path& process, const std::vector<std::string>& words, LocalFiles* files) {
+  if (files->map.empty()) files->map = FileOption(process, words, "--map");
+  if (files->rig.empty()) files->rig = FileOption(process, words, "--rig");
+  if (IsTracker(words)) files->start = OptionValue(words, "--initial-pose");
+}
+
+// The bus it was told; empty: none.
+std::string BusOf(const fs::path& process, const std::vector<std::string>& words) {
+  const std::string url = OptionValue(words, "--lcm-url");
+  return url.empty() ? OptionValue(WordsOf(process / "environ"), "LCM_DEFAULT_URL") : url;
+}
+
+bool SharesNetwork(const fs::path& process) {
+  std::error_code error;
+  return fs::read_symlink(process / "ns/net", error) == fs::read_symlink("/proc/self/ns/net", error) &&
+         !error;
+}
+
+template <typename Look>
+void ForEachProcess(const Look& look) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator("/proc", error)) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") == std::string::npos) look(entry.path());
+  }
 }
 
 }  // namespace
@@ -46,15 +84,20 @@ std::string OptionValue(const std::vector<std::string>& command_line, const std:
 
 LocalFiles FindLocalFiles(pid_t supervisor) {
   LocalFiles files;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator("/proc", error)) {
-    const std::string name = entry.path().filename();
-    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    if (ParentOf(entry.path()) != supervisor) continue;
-    const std::vector<std::string> words = CommandLine(entry.path());
-    if (files.map.empty()) files.map = FileOption(entry.path(), words, "--map");
-    if (files.rig.empty()) files.rig = FileOption(entry.path(), words, "--rig");
-  }
+  ForEachProcess([&](const fs::path& process) {
+    if (ParentOf(process) == supervisor) Take(process, WordsOf(process / "cmdline"), &files);
+  });
+  return files;
+}
+
+LocalFiles FindLocalFiles(const std::string& url, const std::string& prefix) {
+  LocalFiles files;
+  ForEachProcess([&](const fs::path& process) {
+    const std::vector<std::string> words = WordsOf(process / "cmdline");
+    if (!IsService(words) || OptionValue(words, "--prefix") != prefix) return;
+    if (BusOf(process, words) != url || !SharesNetwork(process)) return;
+    Take(process, words, &files);
+  });
   return files;
 }
 

@@ -10,6 +10,7 @@
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
+#include "common/geometry/se3.h"
 #include "tools/monitor/foxglove_audience.h"
 #include "tools/monitor/order_desk.h"
 #include "tools/monitor/page_audience.h"
@@ -40,6 +41,8 @@ class Monitor : private WebClients {
   /// The map and the rig to show, files; an empty name: as it was. Throws std::runtime_error where one is no
   /// good.
   void ShowFiles(const std::string& map, const std::string& rig);
+  /// Where the tracked body is at the begin of its recording. Only where it watches a bus.
+  void SetStart(const SE3& T_map_body) { desk_->SetStart(T_map_body); }
   /// What it waits for while there is no bus, for people.
   void SetWaiting(const std::string& why);
   /// Call often; at once where busy().

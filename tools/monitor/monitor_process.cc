@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "common/bus/lcm_bus.h"
+#include "common/geometry/pose_text.h"
 #include "common/service/runner.h"
 #include "common/service/stop_signals.h"
 #include "tools/monitor/local_files.h"
@@ -24,9 +25,12 @@
 namespace evit::monitor {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr int kNextPipeline = 75;  // a worker's exit code: another one shall show the new pipeline
 constexpr int kPollMs = 10;
 constexpr auto kLookPeriod = std::chrono::milliseconds(300);
+constexpr auto kFilesPeriod = std::chrono::seconds(1);
 constexpr auto kPause = std::chrono::milliseconds(500);  // before a worker that has died is replaced
 
 // Looks now and then whether another pipeline runs.
@@ -50,13 +54,16 @@ class PipelineFinder {
 
 // What the pipeline's services were given and the user did not name. They start one after the other, so that
 // this is tried again until all is known.
-void ShowLocalFiles(pid_t supervisor, LocalFiles* known, Monitor* monitor) {
-  const LocalFiles found = FindLocalFiles(supervisor);
+void ShowLocalFiles(const LocalFiles& found, LocalFiles* known, Monitor* monitor) {
   LocalFiles fresh;
   if (known->map.empty()) fresh.map = known->map = found.map;
   if (known->rig.empty()) fresh.rig = known->rig = found.rig;
   try {
     monitor->ShowFiles(fresh.map, fresh.rig);
+    if (!known->start && found.start) {
+      known->start = found.start;
+      if (!found.start->empty()) monitor->SetStart(ParsePose("--initial-pose", *found.start));
+    }
   } catch (const std::exception& error) {
     // The services have said so as well; the map and the camera are then learnt from the bus.
     std::fprintf(stderr, "evit monitor: %s\n", error.what());
@@ -71,9 +78,17 @@ MonitorProcess::MonitorProcess(MonitorOptions options, std::string lcm_url)
 int MonitorProcess::WatchBus() {
   const StopSignals signals;
   Monitor monitor(options_);
-  const auto bus = OpenLcmBus(ResolveLcmUrl(lcm_url_));
+  const std::string url = ResolveLcmUrl(lcm_url_);
+  const auto bus = OpenLcmBus(url);
   monitor.Watch(bus.get());
+  LocalFiles files{options_.map, options_.rig, std::nullopt};
+  Clock::time_point looked;
   while (!signals.received()) {
+    // The pipeline may run here, whatever its bus.
+    if (const auto now = Clock::now(); !files.complete() && now - looked >= kFilesPeriod) {
+      looked = now;
+      ShowLocalFiles(FindLocalFiles(url, options_.prefix), &files, &monitor);
+    }
     bus->Poll(monitor.busy() ? 0 : kPollMs);
     monitor.Tick();
   }
@@ -87,7 +102,7 @@ int MonitorProcess::WatchLocal() {
   PipelineFinder finder(options_.pipeline);
   std::optional<run::RunningPipeline> shown;
   std::unique_ptr<Bus> bus;
-  LocalFiles files{options_.map, options_.rig};
+  LocalFiles files{options_.map, options_.rig, std::nullopt};
   while (!signals.received()) {
     const auto found = finder.Look();
     if (found && !shown) {
@@ -99,9 +114,7 @@ int MonitorProcess::WatchLocal() {
     } else if (found && found->pid != shown->pid) {
       return kNextPipeline;
     }
-    if (found && (files.map.empty() || files.rig.empty())) {
-      ShowLocalFiles(found->pid, &files, &monitor);
-    }
+    if (found && !files.complete()) ShowLocalFiles(FindLocalFiles(found->pid), &files, &monitor);
     if (bus) {
       bus->Poll(monitor.busy() ? 0 : kPollMs);
     } else {

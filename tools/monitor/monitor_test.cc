@@ -153,6 +153,40 @@ TEST_F(MonitorTest, SeekingNeedsAReplayAndCountsFromItsBegin) {
   EXPECT_EQ(controls[0].seek_utime, 2'000'000);
 }
 
+TEST_F(MonitorTest, AReplayThatIsSentBackTakesTheTrackerAlong) {
+  Start();
+  std::vector<body_pose_t> hints;
+  test::Keep(peer_.get(), channels_.pose_hint, &hints);
+  const auto page = OpenPage();
+  service_status_t status = Sample<service_status_t>();
+  status.service = "log_replay";
+  status.n_counters = 2;
+  status.counter_name = {"recording.begin_utime", "recording.end_utime"};
+  status.counter_value = {1'000'000, 3'000'000};
+  test::Publish(peer_.get(), channels_.status, status);
+  ASSERT_THAT(FrameWith(page.get(), "recording.begin_utime"), HasSubstr("log_replay"));
+  page->SendText(R"({"order":"seek","share":0})");
+  EXPECT_THAT(FrameWith(page.get(), "\"answer\""), HasSubstr("not known"));
+  EXPECT_TRUE(hints.empty());
+
+  monitor_->SetStart({Eigen::Quaterniond::Identity(), {1, 2, 3}});
+  page->SendText(R"({"order":"seek","share":0})");
+  EXPECT_THAT(FrameWith(page.get(), "\"answer\""), HasSubstr("where the body was then"));
+  ASSERT_TRUE(Until([&] { return hints.size() == 1; }));
+  EXPECT_EQ(hints[0].position[2], 3);
+  // One keyframe from before the jump, then the first at the place sought: the hint comes again, once.
+  tracker_mode_t mode = Sample<tracker_mode_t>();
+  mode.mode = tracker_mode_t::BOOTSTRAPPING;
+  for (const std::int64_t utime : {2'900'000, 1'010'000, 1'020'000}) {
+    mode.utime = utime;
+    ++mode.seq;
+    test::Publish(peer_.get(), channels_.tracker_mode, mode);
+  }
+  ASSERT_TRUE(Until([&] { return hints.size() == 2; }));
+  EXPECT_EQ(hints[1].position[0], 1);
+  EXPECT_GT(hints[1].seq, hints[0].seq);
+}
+
 TEST_F(MonitorTest, OnlyProcessesThatASupervisorNamedAreRestarted) {
   Start();
   const auto page = OpenPage();

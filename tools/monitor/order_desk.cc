@@ -11,6 +11,8 @@
 namespace evit::monitor {
 namespace {
 
+constexpr Utime kArrived = 500'000;  // us: a tracker this far behind the place sought is there
+
 std::optional<std::int64_t> Counter(const service_status_t& status, const char* name) {
   const auto found = std::find(status.counter_name.begin(), status.counter_name.end(), name);
   if (found == status.counter_name.end()) return std::nullopt;
@@ -31,14 +33,22 @@ void RefuseIfSilent(const PipelineWatch& watch, const std::string& name) {
   throw std::runtime_error(text);
 }
 
+std::string SpeedText(double speed) {
+  char text[64];
+  std::snprintf(text, sizeof text, "replay at %g times real time", speed);
+  return text;
+}
+
 }  // namespace
 
-OrderDesk::OrderDesk(Bus* bus, const Channels& channels, const PipelineWatch* watch,
-                     procman::Sheriff* sheriff)
+OrderDesk::OrderDesk(Bus* bus, const Channels& channels, PipelineWatch* watch, procman::Sheriff* sheriff)
     : watch_(watch),
       sheriff_(sheriff),
       controls_(bus, channels.replay_control, NewEpoch()),
-      hints_(bus, channels.pose_hint, NewEpoch()) {}
+      hints_(bus, channels.pose_hint, NewEpoch()) {
+  watch->AddListener(&known_);
+  watch->AddListener(this);
+}
 
 void OrderDesk::Control(std::int8_t command, std::int64_t seek_utime, double speed) {
   if (watch_->services().count("log_replay") == 0) {
@@ -64,10 +74,33 @@ std::string OrderDesk::Seek(double share) {
     throw std::runtime_error("log_replay does not say what time its recording spans");
   }
   const auto length = static_cast<double>(*end - *begin);
-  Control(replay_control_t::SEEK, *begin + static_cast<std::int64_t>(share * length), 1);
-  char text[64];
-  std::snprintf(text, sizeof text, "replay continues at %.2f s", 1e-6 * share * length);
+  const Utime t = *begin + static_cast<std::int64_t>(share * length);
+  Control(replay_control_t::SEEK, t, 1);
+  const std::optional<SE3> pose = t == *begin && start_ ? start_ : known_.At(t);
+  sought_.reset();
+  if (pose) {
+    Hint(*pose);
+    sought_ = {t, *pose};
+  }
+  char text[128];
+  std::snprintf(text, sizeof text, "replay goes to %.2f s%s", 1e-6 * share * length,
+                pose ? ", the tracker to where the body was then"
+                     : "; where the body was then is not known: give a pose, or let it be looked for");
   return text;
+}
+
+void OrderDesk::Hint(const SE3& T_map_body) {
+  body_pose_t hint{};
+  hint.utime = HostTime();
+  PutPose(T_map_body, &hint);
+  hints_.Send(&hint);
+}
+
+// Keyframes from before the jump may have come after the first hint, and moved the tracker away from it.
+void OrderDesk::OnMode(const tracker_mode_t& mode) {
+  if (!sought_ || mode.utime < sought_->t || mode.utime > sought_->t + kArrived) return;
+  if (mode.mode != tracker_mode_t::TRACKING) Hint(sought_->T_map_body);
+  sought_.reset();
 }
 
 std::string OrderDesk::Give(const PageOrder& order) {
@@ -87,15 +120,13 @@ std::string OrderDesk::Give(const PageOrder& order) {
       return Seek(order.seek_share);
     case PageOrder::Kind::kSpeed:
       Control(replay_control_t::SPEED, 0, order.speed);
-      return "replay speed changed";
+      return SpeedText(order.speed);
     case PageOrder::Kind::kHint:
       break;
   }
   RefuseIfSilent(*watch_, "window_optimizer");
-  body_pose_t hint{};
-  hint.utime = HostTime();
-  PutPose(order.T_map_body, &hint);
-  hints_.Send(&hint);
+  sought_.reset();  // this one counts
+  Hint(order.T_map_body);
   return "pose sent to the tracker";
 }
 

@@ -6,7 +6,6 @@
 
 #include "common/evaluation/trajectory_error.h"
 #include "procman/process_usage.h"
-#include "tools/run/start_signal.h"
 #include "tools/terminal/progress_bar.h"
 
 namespace evit::run {
@@ -33,8 +32,8 @@ ServiceTime UsedBy(const Pipeline& pipeline) {
 void Show(const Recorder& recorder, terminal::ProgressBar* bar) {
   static constexpr const char* kModes[] = {"bootstrapping", "tracking", "LOST"};
   const std::int64_t n = recorder.n_keyframes();
-  bar->Show(recorder.progress(),
-            n == 0 ? "starting" : std::to_string(n) + " keyframes, " + kModes[recorder.mode().mode % 3]);
+  const char* doing = recorder.paused() ? "paused" : kModes[recorder.mode().mode % 3];
+  bar->Show(recorder.progress(), n == 0 ? "starting" : std::to_string(n) + " keyframes, " + doing);
 }
 
 }  // namespace
@@ -43,17 +42,17 @@ Player::Player(const RunJob& job, const RunInputs& inputs, const Parts& parts)
     : job_(job), inputs_(inputs), parts_(parts) {}
 
 std::string Player::Play(const StopSignals& signals) {
+  StartSignal start(parts_.remote);
   for (int loop = 1;; ++loop) {
-    std::string ended = WaitForEnd(signals);
+    std::string ended = WaitForEnd(signals, &start);
     if (job_.play.loops > 1) PrintLoop(loop);
     if (ended != "finished" || loop >= job_.play.loops) return ended;
     PlayAgain();
   }
 }
 
-std::string Player::WaitForEnd(const StopSignals& signals) {
+std::string Player::WaitForEnd(const StopSignals& signals, StartSignal* start) {
   terminal::ProgressBar bar("tracking");
-  StartSignal start(parts_.remote);
   StallWatch watch;
   const Clock::time_point begin = Clock::now();
   double looked = -kUsagePeriod;
@@ -61,9 +60,10 @@ std::string Player::WaitForEnd(const StopSignals& signals) {
     parts_.bus->Poll(20);
     parts_.pipeline->Watch();
     parts_.memory->Tick();
-    if (!job_.play.lossless) start.Tick(*parts_.recorder);
+    if (!job_.play.lossless) start->Tick(*parts_.recorder);
     Show(*parts_.recorder, &bar);
-    if (parts_.recorder->TakeActivity()) watch.Progress();
+    const bool held = parts_.recorder->paused() && (job_.play.lossless || start->begun());
+    if (parts_.recorder->TakeActivity() || held) watch.Progress();
     if (const double now = SecondsSince(begin); now - looked >= kUsagePeriod) {
       looked = now;
       watch.Tick(now, UsedBy(*parts_.pipeline));

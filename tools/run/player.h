@@ -12,6 +12,7 @@
 #include "tools/run/run_inputs.h"
 #include "tools/run/run_job.h"
 #include "tools/run/stall_watch.h"
+#include "tools/run/start_signal.h"
 
 namespace evit::run {
 
@@ -36,7 +37,7 @@ class Player {
  private:
   using Clock = std::chrono::steady_clock;
 
-  std::string WaitForEnd(const StopSignals& signals);
+  std::string WaitForEnd(const StopSignals& signals, StartSignal* start);
   bool Over(const StallWatch& watch) const;
   void RequireHealthy(const StallWatch& watch) const;
   void PlayAgain();

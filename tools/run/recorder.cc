@@ -99,6 +99,11 @@ double Recorder::progress() const {
   return it == statuses_.end() ? 0 : it->second.progress;
 }
 
+bool Recorder::paused() const {
+  const auto it = statuses_.find("log_replay");
+  return it != statuses_.end() && it->second.state == "paused";
+}
+
 bool Recorder::Finished() const {
   const auto it = statuses_.find("frame_builder");
   return it != statuses_.end() && it->second.state == "drained" &&

@@ -8,6 +8,7 @@
 namespace evit::run {
 
 /// Tells log_replay to begin once all services are there, and again until it obeys: UDP may lose an order.
+/// Once it has begun, a pause is somebody's wish, and holds.
 class StartSignal {
  public:
   /// `remote` must outlive this.
@@ -15,12 +16,14 @@ class StartSignal {
 
   /// Call often.
   void Tick(const Recorder& recorder);
+  /// log_replay has played since the first order.
+  bool begun() const { return begun_; }
 
  private:
   using Clock = std::chrono::steady_clock;
 
   Remote* remote_;
-  bool sent_ = false;
+  bool sent_ = false, begun_ = false;
   Clock::time_point sent_at_;
 };
 
