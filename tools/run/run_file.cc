@@ -59,6 +59,7 @@ std::vector<RunningPipeline> FindAllRunning() {
   }
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<RunningPipeline> pipelines;
+  pipelines.reserve(all.size());
   for (auto& [time, pipeline] : all) pipelines.push_back(std::move(pipeline));
   return pipelines;
 }

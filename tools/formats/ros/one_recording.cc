@@ -58,9 +58,11 @@ void RequireOneRecording(const std::vector<BagPart>& parts, const TakenTopics& t
   for (const std::string& topic : {taken.imu, taken.truth}) {
     for (const FileSpan& file : FilesWith(parts, topic)) {
       if (file.span.begin <= all.end + kMaxHole && file.span.end >= all.begin - kMaxHole) continue;
-      throw std::runtime_error(Text(file) + " holds " + topic + " of another time than the events of " +
-                               Text({events.front().file, all}) +
-                               ": these are different recordings; import the files of one");
+      throw std::runtime_error(
+          Text(file) + " holds " + topic + " of another time than the events of " +
+          Text({events.front().file, all}) +
+          ": these are different recordings, or clocks; import the files of one, or give an IMU "
+          "of another clock with --imu FILE --imu-offset SECONDS");
     }
   }
 }
