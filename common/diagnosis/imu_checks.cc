@@ -72,6 +72,26 @@ Finding Gaps(const std::vector<double>& steps) {
   return Good("imu-gaps", figure);
 }
 
+// The norm of the mean force over half a second, in which shaking cancels and gravity does not; its median.
+double ForceWithoutShaking(const std::vector<ImuSample>& samples) {
+  constexpr Utime kWindow = 500'000;  // us: some periods of a hand's tremor
+  std::vector<double> norms;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Utime begin = samples.front().t;
+  int n = 0;
+  for (const ImuSample& s : samples) {
+    if (s.t - begin >= kWindow) {
+      norms.push_back(sum.norm() / n);
+      sum = Eigen::Vector3d::Zero();
+      begin = s.t;
+      n = 0;
+    }
+    sum += s.accel;
+    ++n;
+  }
+  return norms.empty() ? sum.norm() / n : Median(norms);
+}
+
 Finding AccelUnit(const std::vector<ImuSample>& samples, double gravity) {
   std::vector<double> norms;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -87,6 +107,10 @@ Finding AccelUnit(const std::vector<ImuSample>& samples, double gravity) {
   const double rms = std::sqrt(squares / n), steady = sum.norm() / n / std::max(rms, 1e-12);
   const std::string figure = FormatText("specific force %.3g m/s^2 (median), gravity %.2f", median, gravity);
   if (std::abs(median / gravity - 1) < 0.2) return Good("imu-accel-unit", figure);
+  // Shaken hard, it reads more than gravity, up and down; in another unit it would do so on average too.
+  const bool shaken = median > gravity && spread > 0.2 * median;
+  if (shaken && std::abs(ForceWithoutShaking(samples) / gravity - 1) < 0.2)
+    return Good("imu-accel-unit", figure + ", shaken");
   struct Unit {
     const char* name;
     double g;

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "common/diagnosis/event_checks.h"
+#include "common/diagnosis/imu_checks.h"
 #include "tests/helpers/paths.h"
 #include "tests/helpers/temporary_folder.h"
 #include "tools/doctor/test_faults.h"
@@ -101,6 +104,22 @@ TEST(DoctorTest, AHotPixelDoesNotMakeItsNeighboursDead) {
     EXPECT_EQ(f.severity, Severity::kGood) << f.figure;
   }
   EXPECT_TRUE(found);
+}
+
+// Shaken by 2 g at 7 Hz it reads more than gravity most of the time, but not on average; a wrong scale does.
+TEST(DoctorTest, ShakingIsNoOtherUnit) {
+  for (const double scale : {1.0, 1.4}) {
+    std::vector<ImuSample> samples;
+    for (int k = 0; k < 600; ++k)
+      samples.push_back({5000 * k, {0, 0, 0.1}, scale * Eigen::Vector3d(20 * std::sin(0.22 * k), 0, 9.81)});
+    bool found = false;
+    for (const Finding& f : diagnosis::CheckImu(samples, GoodSample().rig)) {
+      if (f.check != "imu-accel-unit") continue;
+      found = true;
+      EXPECT_EQ(f.severity, scale == 1 ? Severity::kGood : Severity::kError) << f.figure;
+    }
+    EXPECT_TRUE(found);
+  }
 }
 
 TEST(DoctorTest, ASizeToldFromEventsIsAtLeastThat) {
