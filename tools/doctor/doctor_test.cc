@@ -111,7 +111,8 @@ TEST(DoctorTest, ShakingIsNoOtherUnit) {
   for (const double scale : {1.0, 1.4}) {
     std::vector<ImuSample> samples;
     for (int k = 0; k < 600; ++k)
-      samples.push_back({5000 * k, {0, 0, 0.1}, scale * Eigen::Vector3d(20 * std::sin(0.22 * k), 0, 9.81)});
+      samples.push_back(
+          {Utime{5000} * k, {0, 0, 0.1}, scale * Eigen::Vector3d(20 * std::sin(0.22 * k), 0, 9.81)});
     bool found = false;
     for (const Finding& f : diagnosis::CheckImu(samples, GoodSample().rig)) {
       if (f.check != "imu-accel-unit") continue;
@@ -126,8 +127,8 @@ TEST(DoctorTest, ASizeToldFromEventsIsAtLeastThat) {
   diagnosis::EventCensus census(640, 480);
   EventArray events;
   for (int k = 0; k < 200'000; ++k)
-    events.push_back(10 * k, static_cast<std::uint16_t>(k % 322), static_cast<std::uint16_t>(k / 7 % 243),
-                     k % 2);
+    events.push_back(Utime{10} * k, static_cast<std::uint16_t>(k % 322),
+                     static_cast<std::uint16_t>(k / 7 % 243), k % 2);
   census.Add(events);
   for (const Finding& f : diagnosis::CheckEvents(census)) {
     if (f.check != "sensor-size") continue;
