@@ -160,10 +160,13 @@ PipelineOptions LoadOptionsFor(const Camera& camera, const std::string& path) {
   LoadedSettings loaded;
   if (!path.empty()) loaded = LoadSettings(path);
   PipelineOptions& o = loaded.options;
-  const double scale = std::max(1.0, camera.width / kDefaultsFor);
+  const double relative = camera.width / kDefaultsFor, scale = std::max(1.0, relative);
   if (loaded.set.count("keyframes.n_event") == 0)
     o.keyframes.n_event = static_cast<int>(std::lround(scale * o.keyframes.n_event));
   if (loaded.set.count("points.margin_px") == 0) o.points.margin_px *= scale;
+  // Edges are lines: a narrower image has room for fewer points in proportion, and more only repeat them.
+  if (loaded.set.count("points.per_keyframe") == 0)
+    o.points.per_keyframe = static_cast<int>(std::lround(std::min(1.0, relative) * o.points.per_keyframe));
   return o;
 }
 

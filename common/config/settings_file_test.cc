@@ -64,6 +64,7 @@ TEST_F(SettingsFile, FullCopiesOfEarlierVersionsLoadToTheSameValues) {
     expected.surface.blur_sigma_px = 0.5;
     expected.points.max_active = 5000;
     expected.points.per_keyframe = 1500;
+    expected.window.image_sigma = 80;
     expected.failure.min_contrast = 0.03;
     expected.bootstrap.min_contrast = 0.06;
     expected.window.correlated_share = 1.8;
@@ -202,6 +203,9 @@ TEST_F(SettingsFile, DefaultsFollowAWiderSensor) {
   EXPECT_DOUBLE_EQ(set.points.margin_px, 50);
   camera.width = 240, camera.height = 180;
   EXPECT_EQ(LoadOptionsFor(camera, "").keyframes.n_event, plain.keyframes.n_event);
+  EXPECT_EQ(LoadOptionsFor(camera, "").points.per_keyframe, plain.points.per_keyframe * 240 / 640);
+  EXPECT_EQ(LoadOptionsFor(camera, Write("b.textproto", "points { per_keyframe: 900 }")).points.per_keyframe,
+            900);
 }
 
 TEST_F(SettingsFile, AFileThatIsNotThereIsNamed) {

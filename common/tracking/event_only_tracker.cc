@@ -83,7 +83,7 @@ TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
     out.information.topLeftCorner<6, 6>() = alignment;
     out.information.bottomRightCorner<9, 9>().setIdentity();
     uncertainty_.SetAlignment(alignment, MeasureMisfit(alignment_, field, points, fit.T_map_body));
-    out.covariance = uncertainty_.Covariance(out.information, state_.velocity, rate_);
+    out.covariance = uncertainty_.Covariance(PoseCovariance(out.information), state_.velocity, rate_);
     out.nodes.push_back({keyframe.t, keyframe.seq, state_});
     out.has_pose = true;
     out.image_speed = MedianImageSpeed(alignment_, points, state_.T_map_body, state_.velocity, rate_);

@@ -12,7 +12,7 @@ constexpr double kLongest = 1e6;            // us
 // Of the systematic to the random variance, over three axes from `first` on.
 double Ratio(const KeyframeNeed& need, int first) {
   const double random = need.random.diagonal().segment<3>(first).sum();
-  const double systematic = need.total.diagonal().segment<3>(first).sum() - random;
+  const double systematic = need.systematic.diagonal().segment<3>(first).sum();
   return random > 0 && systematic > 0 ? systematic / random : 0;
 }
 

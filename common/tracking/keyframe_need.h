@@ -7,10 +7,10 @@ namespace evit {
 
 /// What more keyframes could still bring.
 struct KeyframeNeed {
-  Matrix6d random;     // covariance of the newest pose from all keyframes of the window alone: more keyframes
-                       // lower it
-  Matrix6d total;      // that and the systematic part, which they do not
-  Utime interval = 0;  // us: of these keyframes, in the mean
+  Matrix6d random;  // covariance of the newest pose from all keyframes of the window alone: more keyframes
+                    // lower it
+  Matrix6d systematic;     // the part of the covariance that they do not
+  Utime interval = 0;      // us: of these keyframes, in the mean
   double image_speed = 0;  // pixels/s; 0: unknown
   int image_width = 640;   // pixels
 };

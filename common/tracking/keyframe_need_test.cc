@@ -10,9 +10,9 @@ KeyframeNeed Need(double systematic_position, double systematic_rotation) {
   KeyframeNeed need;
   need.random = Matrix6d::Identity();
   need.random.bottomRightCorner<3, 3>() *= 2;
-  need.total = need.random;
-  need.total.topLeftCorner<3, 3>().diagonal().array() += systematic_position;
-  need.total.bottomRightCorner<3, 3>().diagonal().array() += systematic_rotation;
+  need.systematic = Matrix6d::Zero();
+  need.systematic.topLeftCorner<3, 3>().diagonal().array() += systematic_position;
+  need.systematic.bottomRightCorner<3, 3>().diagonal().array() += systematic_rotation;
   need.interval = 20'000;
   need.image_speed = 10;
   return need;
@@ -26,7 +26,6 @@ TEST(UsefulInterval, TheRandomPartMayGrowToAThirdOfTheSystematic) {
 
 TEST(UsefulInterval, IsTheSameWhateverTheIntervalSoFar) {
   KeyframeNeed twice = Need(6, 100);
-  twice.total += twice.random;
   twice.random *= 2;
   twice.interval *= 2;
   EXPECT_NEAR(static_cast<double>(UsefulInterval(twice)), static_cast<double>(UsefulInterval(Need(6, 100))),

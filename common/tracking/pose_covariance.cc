@@ -47,6 +47,15 @@ Matrix6d TimeOffsetCovariance(const Eigen::Vector3d& velocity, const Eigen::Vect
   return moved * moved.transpose();
 }
 
+Matrix6d WindowCovariance(const Matrix15d& information) {
+  // So many keyframes say what one independent one would. The IMU alone carried states of ten runs on
+  // recordings and of three in simulation on for a second: with 1 here their positions were off by three
+  // times the variance of all terms (geometric mean; up to eight times), with 5 by 0.7 times
+  // (docs/results/trials.md).
+  constexpr double kAsOne = 5;
+  return kAsOne * PoseCovariance(information);
+}
+
 void PoseUncertainty::SetAlignment(const Matrix6d& alignment, const AlignmentMisfit& misfit) {
   constexpr int kMisfits = 10;     // keyframes: a quarter to half a second
   constexpr int kFewPatches = 10;  // of fewer the median means nothing
@@ -59,10 +68,13 @@ void PoseUncertainty::SetAlignment(const Matrix6d& alignment, const AlignmentMis
                 MisfitCovariance(misfit_, options_.misfit_share, focal_px_);
 }
 
-Matrix6d PoseUncertainty::Covariance(const Matrix15d& information, const Eigen::Vector3d& velocity,
+Matrix6d PoseUncertainty::Covariance(const Matrix6d& random, const Eigen::Vector3d& velocity,
                                      const Eigen::Vector3d& rate) const {
-  return PoseCovariance(information) + systematic_ +
-         TimeOffsetCovariance(velocity, rate, 1e-6 * options_.stamp_sigma_us);
+  return random + Systematic(velocity, rate);
+}
+
+Matrix6d PoseUncertainty::Systematic(const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate) const {
+  return systematic_ + TimeOffsetCovariance(velocity, rate, 1e-6 * options_.stamp_sigma_us);
 }
 
 }  // namespace evit

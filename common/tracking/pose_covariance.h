@@ -27,7 +27,13 @@ Matrix6d MisfitCovariance(const AlignmentMisfit& misfit, double share, double fo
 /// latency, s.
 Matrix6d TimeOffsetCovariance(const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate, double sigma);
 
-/// The sum of these four, which the trackers report.
+/// Covariance of the pose of a state from all keyframes of a window, whose inverse covariance `information`
+/// takes them as independent. They are not: each sees the edges that the last one saw, so velocity and biases
+/// are off with the pose, and an estimate that the IMU alone carries drifts away faster than `information`
+/// says.
+Matrix6d WindowCovariance(const Matrix15d& information);
+
+/// The sum of these, which the trackers report.
 class PoseUncertainty {
  public:
   PoseUncertainty(const Camera& camera, const WindowOptions& options)
@@ -36,9 +42,12 @@ class PoseUncertainty {
   /// The newest keyframe that aligned with the map: `alignment` is the information of its events alone. Its
   /// systematic part stays until the next one. The misfit is the mean of the last ten's or so.
   void SetAlignment(const Matrix6d& alignment, const AlignmentMisfit& misfit);
-  /// `information`: inverse covariance of the newest state from all keyframes. Velocity and rate as above.
-  Matrix6d Covariance(const Matrix15d& information, const Eigen::Vector3d& velocity,
+  /// `random`: what keyframes so far leave open (WindowCovariance, or PoseCovariance of a single one).
+  /// Velocity and rate as above.
+  Matrix6d Covariance(const Matrix6d& random, const Eigen::Vector3d& velocity,
                       const Eigen::Vector3d& rate) const;
+  /// The part of it that more keyframes would not lower.
+  Matrix6d Systematic(const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate) const;
 
  private:
   double focal_px_;

@@ -17,6 +17,12 @@ TEST(PoseCovariance, IsThePosesPartOfTheInverse) {
   EXPECT_LT((PoseCovariance(information) - expected).norm(), 1e-6 * expected.norm());
 }
 
+TEST(PoseCovariance, KeyframesThatSeeTheSameEdgesSayLessThanSoManyIndependentOnes) {
+  const Matrix15d information = 1e6 * Matrix15d::Identity();
+  EXPECT_GT(WindowCovariance(information)(0, 0), 3 * PoseCovariance(information)(0, 0));
+  EXPECT_GT(WindowCovariance(information)(5, 5), 3 * PoseCovariance(information)(5, 5));
+}
+
 TEST(PoseCovariance, WhatOneKeyframeLeavesOpenStaysButNotWithoutBound) {
   Matrix6d alignment = Matrix6d::Zero();
   alignment.diagonal() << 1e6, 1e6, 0, 1e8, 1e8, 1e8;  // nothing seen along z
@@ -43,7 +49,7 @@ TEST(PoseCovariance, GrowsWithinASecondWhereTheMapIsWrongAndNotByOneKeyframe) {
   PoseUncertainty uncertainty(camera, WindowOptions());
   const Matrix6d alignment = 1e7 * Matrix6d::Identity();
   const auto sigma = [&] {
-    return std::sqrt(uncertainty.Covariance(1e8 * Matrix15d::Identity(), Eigen::Vector3d::Zero(),
+    return std::sqrt(uncertainty.Covariance(1e-8 * Matrix6d::Identity(), Eigen::Vector3d::Zero(),
                                             Eigen::Vector3d::Zero())(0, 0));
   };
   for (int k = 0; k < 30; ++k) uncertainty.SetAlignment(alignment, {100, 0.3, 0.004});

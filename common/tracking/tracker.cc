@@ -187,8 +187,8 @@ void Tracker::Track(const KeyframeInput& keyframe, TrackerOutput* out) {
     SetMode(TrackerMode::kTracking, "tracking");
     ReportPose(window_.nodes().back().points, out);
     out->useful_interval =
-        UsefulInterval({PoseCovariance(out->information), out->covariance, window_.MeanInterval(),
-                        out->image_speed, alignment_.camera().width});
+        UsefulInterval({PoseCovariance(out->information), window_.SystematicUncertainty(rate_),
+                        window_.MeanInterval(), out->image_speed, alignment_.camera().width});
   } else {
     SetMode(TrackerMode::kTracking, "coasting on the IMU: " + result.coasting);
     out->quality = {};

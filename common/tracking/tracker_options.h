@@ -9,7 +9,7 @@ namespace evit {
 /// Which map points a keyframe is aligned with.
 struct PointOptions {
   int max_active = 8000;    // points asked of map_server for one view
-  int per_keyframe = 4000;  // random subset of those used by the solver for each keyframe
+  int per_keyframe = 8000;  // of those, used by the solver for each keyframe; a random subset where fewer
   double margin_px = 40;    // how much wider than the image the frustum of the predicted pose is
   double min_depth_m = 0.1;
   double max_depth_m = 12;
@@ -29,7 +29,7 @@ struct WindowOptions {
   RobustKernel::Kind kernel = RobustKernel::Kind::kCauchy;
   FirstNode first_node = FirstNode::kPrior;
   double image_sigma =
-      80;  // grey levels: noise of one surface value (docs/explanation/method.md argues the figure)
+      100;  // grey levels: noise of one surface value (docs/explanation/method.md argues the figure)
   double robust_scale = 80;  // grey levels: scale of the kernel
   int max_iterations = 12;
   double imu_noise_factor = 2;  // on the calibrated densities: covers integration error and vibration

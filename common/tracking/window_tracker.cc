@@ -42,7 +42,11 @@ void WindowTracker::SetUncertainty(const WindowNode& newest) {
 
 void WindowTracker::ReportUncertainty(const Eigen::Vector3d& rate, TrackerOutput* out) const {
   out->information = window_.NewestInformation();
-  out->covariance = uncertainty_.Covariance(out->information, state().velocity, rate);
+  out->covariance = uncertainty_.Covariance(WindowCovariance(out->information), state().velocity, rate);
+}
+
+Matrix6d WindowTracker::SystematicUncertainty(const Eigen::Vector3d& rate) const {
+  return uncertainty_.Systematic(state().velocity, rate);
 }
 
 Utime WindowTracker::MeanInterval() const {

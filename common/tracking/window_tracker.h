@@ -44,6 +44,9 @@ class WindowTracker {
   /// Fills what `out` says of how well the newest state is known. `rate`: rad/s, body frame.
   void ReportUncertainty(const Eigen::Vector3d& rate, TrackerOutput* out) const;
 
+  /// The part of the covariance that more keyframes would not lower.
+  Matrix6d SystematicUncertainty(const Eigen::Vector3d& rate) const;
+
   /// us: mean time between the window's keyframes; 0 where there is only one.
   Utime MeanInterval() const;
 

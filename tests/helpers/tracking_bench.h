@@ -15,6 +15,7 @@ inline TrackerOptions TestOptions() {
   o.min_events = 1000;
   o.lag_px = 0;
   o.points.per_keyframe = 600;
+  o.window.image_sigma = 80;
   o.points.occlusion = false;
   o.window.correlated_share = o.window.misfit_share = o.window.map_sigma_m = o.window.stamp_sigma_us = 0;
   o.bootstrap.min_displacement_m = 0.05;
