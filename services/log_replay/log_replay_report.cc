@@ -1,4 +1,5 @@
 // What log_replay says of itself.
+#include <cmath>
 #include <cstdio>
 
 #include "common/service/credit_sender.h"
@@ -27,6 +28,7 @@ void LogReplay::Report(std::int64_t now_us) {
   const double length = 1e-6 * static_cast<double>(recording_.utime(end_ - 1) - recording_.utime(begin_));
   const double position = 1e-6 * static_cast<double>(DataTime() - recording_.utime(begin_));
   status_.SetProgress(next_ == end_ ? 1.0 : (length > 0 ? position / length : 0.0));
+  status_.Counter("speed_percent") = std::llround(100 * pacer_.speed());  // of real time; 0: unpaced
   char place[96];
   std::snprintf(place, sizeof(place), "%.2f of %.2f s", position, length);
   const std::string where = options_.log + ": " + place;

@@ -4,7 +4,7 @@ import type { CameraInfo } from "./status";
 
 const DEPTH_M = 0.35; // of the frustum drawn
 const AXIS_M = 0.15;
-const AXES = [0xd55e00, 0x009e73, 0x2f8fd0]; // x, y, z
+export const AXES = [0xd55e00, 0x009e73, 0x2f8fd0]; // x, y, z
 
 export function mountOf(camera: CameraInfo | null): THREE.Matrix4 | null {
   if (!camera?.position || !camera.orientation) return null;

@@ -27,7 +27,10 @@ export interface WindowState extends Pose {
   totalMs: number;
   latencyMs: number; // negative: not known
   points: number;
+  near?: number | null; // share of the points that had events near them; the page's own figure
 }
+
+export const TRACKING = 1; // a WindowState's mode, as in lcmtypes/tracker_mode_t.lcm
 
 export interface Picture {
   utime: number;

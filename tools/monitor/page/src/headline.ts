@@ -17,6 +17,7 @@ export interface Heard {
   status: Status | null;
   mode: Mode | null;
   window: WindowState | null;
+  near?: number | null; // share of the map's points that have events near them; null: no picture
 }
 
 const SETTLED = /^(tracking|bootstrapped)$/; // reasons that say no more than the mode does
@@ -26,9 +27,22 @@ export function placeOf(replay: Service | undefined): string {
   return /[\d.]+ of [\d.]+ s/.exec(replay?.detail ?? "")?.[0] ?? "";
 }
 
+// Those that make poses have stopped: nobody plays anything again.
+export function isOver({ services }: Status): boolean {
+  const makers = services.filter(({ name }) => name === "window_optimizer" || name === "frame_builder");
+  return makers.length > 0 && makers.every((s) => s.state === "finished" || (isSilent(s) && s.state === "drained"));
+}
+
 // What the estimate rests on.
-function basis(window: WindowState): string {
-  return `from ${window.points.toLocaleString("en")} map points in view, ${Math.round(100 * window.inlierShare)} % of them on edges`;
+function basis(window: WindowState, near: number | null): string {
+  const points = `from ${window.points.toLocaleString("en")} map points in view`;
+  return near === null ? points : `${points}, ${Math.round(100 * near)} % of them near events`;
+}
+
+function pausedReason(replay: Service, mode: Mode | null): string {
+  const place = placeOf(replay);
+  if (replay.progress <= 0) return `all is ready, the recording waits at its begin (${place}): press Play`;
+  return `at ${place}; Play continues.${mode ? ` It was ${mode.mode} then.` : ""}`;
 }
 
 function tracking(heard: Heard, status: Status, mode: Mode): Headline {
@@ -42,7 +56,7 @@ function tracking(heard: Heard, status: Status, mode: Mode): Headline {
   if (mode.mode === "bootstrapping") return { kind: "wait", name: "starting", reason: mode.reason };
   const level = status.services.find(({ name }) => name === "window_optimizer")?.counters["overload.level"] ?? 0;
   const settled = SETTLED.test(mode.reason) && heard.window;
-  const reason = settled ? basis(heard.window!) : mode.reason;
+  const reason = settled ? basis(heard.window!, heard.near ?? null) : mode.reason;
   return { kind: "good", name: "tracking", reason: level > 0 ? `${reason}; this host is too slow, overload level ${level}` : reason };
 }
 
@@ -59,15 +73,16 @@ export function headline(heard: Heard): Headline {
   if (processes.length === 0 && ended && services.some(isSilent)) {
     return { kind: "idle", name: "over", reason: "the pipeline has ended; this is the last that was heard of it" };
   }
+  const was = mode ? ` It was ${mode.mode} at the end.` : "";
+  if (isOver(status)) return { kind: "idle", name: "over", reason: `the run has ended; this is the last that was heard of it.${was} Start it again to see it again` };
   const down = downReason(status);
   if (down) return { kind: "bad", name: "service down", reason: down };
   const failed = services.find(({ state }) => state === "failed");
   if (failed) return { kind: "bad", name: "failed", reason: `${failed.name}: ${failed.detail}` };
   const replay = services.find(({ name }) => name === "log_replay");
-  const when = mode ? ` It was ${mode.mode} then.` : "";
-  if (replay?.state === "paused") return { kind: "wait", name: "paused", reason: `at ${placeOf(replay)}; Play continues.${when}` };
+  if (replay?.state === "paused") return { kind: "wait", name: "paused", reason: pausedReason(replay, mode) };
   if (replay && (replay.state === "finished" || replay.progress >= 1)) {
-    return { kind: "idle", name: "ended", reason: `the recording is over, ${placeOf(replay)}; Play shows it again.${when}` };
+    return { kind: "idle", name: "ended", reason: `the recording is over${placeOf(replay) && `, ${placeOf(replay)}`}; Play shows it again.${was}` };
   }
   if (replay && (replay.state === "waiting" || replay.state === "starting")) return { kind: "wait", name: "waiting", reason: `log_replay: ${replay.detail}` };
   if (mode) return tracking(heard, status, mode);

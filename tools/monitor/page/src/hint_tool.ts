@@ -2,8 +2,10 @@ import * as THREE from "three";
 import { mountOf } from "./body";
 import type { Order } from "./connection";
 import { element } from "./dom";
+import { makeMovable } from "./grip";
 import type { MapView } from "./map_view";
-import type { CameraInfo } from "./status";
+import type { CameraInfo, Mode } from "./status";
+import { seenFrom } from "./try_pose";
 
 const FIELDS = ["x", "y", "z", "yaw", "pitch"] as const;
 type Field = (typeof FIELDS)[number];
@@ -17,20 +19,38 @@ function cameraPose(position: THREE.Vector3, yaw: number, pitch: number): THREE.
   return new THREE.Matrix4().makeBasis(right, down, forward).setPosition(position);
 }
 
-// Gives the tracker a pose: press on the map for the place, drag for the heading, or type, or take the view.
+export interface HintEvents {
+  opened(): void;
+  said(text: string, ok: boolean): void; // of a pose that was sent
+  tries(pixels: Float32Array | null): void; // the map as the pose in the form sees it; null: no pose is in the form
+}
+
+const REFUSED_MS = 2000; // a tracker that is lost for so long after a pose has tried it
+
+// Gives the tracker a pose: the view that looks like the picture of events, or drawn on the map (press for the place, drag
+// for the heading), or typed. The pose stays in the map until the tracker has taken or refused it.
 export class HintTool {
   private readonly panel = element("map-panel");
   private readonly form = element<HTMLFormElement>("hint-form");
   private readonly button = element<HTMLButtonElement>("hint");
+  private readonly draw = element<HTMLButtonElement>("hint-draw");
   private camera: CameraInfo | null = null;
   private pressed = false;
+  private sentAt: number | null = null; // ms: a pose was sent, and is neither taken nor refused yet
+  private tried = false;
 
   constructor(
     private readonly view: MapView,
     private readonly canvas: HTMLCanvasElement,
     private readonly send: (order: Order) => void,
-    private readonly opened: () => void,
+    private readonly events: HintEvents,
   ) {
+    makeMovable(this.form, element("hint-grip"));
+    this.draw.onclick = () => {
+      const on = this.draw.getAttribute("aria-pressed") !== "true";
+      if (on) this.takeLast(); // at the height of the view itself nothing can be drawn
+      this.setDrawing(on);
+    };
     this.button.onclick = () => this.toggle(this.form.hidden);
     element("hint-cancel").onclick = () => this.toggle(false);
     element("hint-view").onclick = () => this.takeView();
@@ -71,17 +91,51 @@ export class HintTool {
     this.field(name).value = value.toFixed(name === "yaw" || name === "pitch" ? 0 : 2);
   }
 
+  // What the tracker makes of a pose that was sent.
+  hear(mode: Mode): void {
+    if (this.sentAt === null) return;
+    if (mode.mode === "bootstrapping") this.tried = true;
+    if (mode.mode === "tracking") this.settle("the tracker took the pose and is tracking", true);
+    const refused = mode.mode === "lost" && (this.tried || performance.now() - this.sentAt > REFUSED_MS);
+    if (refused) this.settle(`the tracker does not find the map around the pose sent: ${mode.reason}`, false);
+  }
+
+  private settle(text: string, ok: boolean): void {
+    this.forget();
+    this.events.said(text, ok);
+  }
+
+  private forget(): void {
+    this.sentAt = null;
+    this.tried = false;
+    if (this.form.hidden) this.view.ghost.object.visible = false;
+    this.view.onLegend();
+    this.view.invalidate();
+  }
+
+  get waits(): boolean {
+    return this.sentAt !== null;
+  }
+
   private toggle(on: boolean): void {
     this.form.hidden = !on;
     this.button.setAttribute("aria-pressed", String(on));
+    this.setDrawing(false);
+    this.forget();
+    if (on) {
+      this.events.opened();
+      this.takeLast();
+    } else {
+      this.events.tries(null);
+    }
+  }
+
+  // The left button draws the pose; else it turns the map.
+  private setDrawing(on: boolean): void {
+    this.draw.setAttribute("aria-pressed", String(on));
     this.panel.classList.toggle("hinting", on);
     this.view.reserveLeftButton(on);
-    this.view.ghost.object.visible = false;
-    if (on) {
-      this.opened();
-      this.takeLast();
-    }
-    this.view.invalidate();
+    this.pressed = false;
   }
 
   private takeLast(): void {
@@ -117,7 +171,7 @@ export class HintTool {
   }
 
   private press(event: PointerEvent): void {
-    if (this.form.hidden || event.button !== 0) return;
+    if (!this.panel.classList.contains("hinting") || event.button !== 0) return;
     const at = this.onPlane(event);
     if (!at) return;
     this.pressed = true;
@@ -137,11 +191,15 @@ export class HintTool {
     this.drawGhost();
   }
 
+  private cameraPose(): THREE.Matrix4 {
+    const place = new THREE.Vector3(this.value("x"), this.value("y"), this.value("z"));
+    return cameraPose(place, this.value("yaw") / DEGREES, this.value("pitch") / DEGREES);
+  }
+
   private bodyPose(): { position: THREE.Vector3; orientation: THREE.Quaternion } | null {
     const mount = mountOf(this.camera);
     if (!mount) return null;
-    const place = new THREE.Vector3(this.value("x"), this.value("y"), this.value("z"));
-    const T = cameraPose(place, this.value("yaw") / DEGREES, this.value("pitch") / DEGREES).multiply(mount.invert());
+    const T = this.cameraPose().multiply(mount.invert());
     const position = new THREE.Vector3();
     const orientation = new THREE.Quaternion();
     T.decompose(position, orientation, new THREE.Vector3());
@@ -151,6 +209,7 @@ export class HintTool {
   private drawGhost(): void {
     const pose = this.bodyPose();
     if (pose) this.view.ghost.place(pose.position.toArray(), pose.orientation.toArray());
+    if (this.camera) this.events.tries(seenFrom(this.cameraPose(), this.camera, this.view.cloud));
     this.view.invalidate();
   }
 
@@ -159,5 +218,8 @@ export class HintTool {
     if (!pose) return;
     this.send({ order: "hint", position: pose.position.toArray(), orientation: pose.orientation.toArray() });
     this.toggle(false);
+    this.sentAt = performance.now();
+    this.view.ghost.object.visible = true;
+    this.view.onLegend();
   }
 }

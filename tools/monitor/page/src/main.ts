@@ -4,7 +4,7 @@ import { Candidates } from "./candidates";
 import { Connection, type Handler } from "./connection";
 import { color, element, isDark, onThemeChange, setMarked, setText } from "./dom";
 import { showEmptyMap } from "./empty_map";
-import type { History, MapPiece, Picture, Pose, WindowState } from "./frames";
+import { TRACKING, type History, type MapPiece, type Picture, type Pose, type WindowState } from "./frames";
 import { headline, SIGNS } from "./headline";
 import { HintTool } from "./hint_tool";
 import { Latencies } from "./latency";
@@ -16,6 +16,12 @@ import type { Answer, Drawn, Mode, Places, Status } from "./status";
 import { SurfaceView } from "./surface_view";
 
 const ANSWER_MS = 6000; // for so long an answer stays
+
+// Standard deviations of position and of orientation.
+function sigmas({ covariance }: WindowState): string {
+  const root = (...at: number[]) => Math.sqrt(at.reduce((sum, i) => sum + Math.max(0, covariance[7 * i]!), 0));
+  return `${(1000 * root(0, 1, 2)).toFixed(1)} mm  ${((root(3, 4, 5) * 180) / Math.PI).toFixed(2)}°`;
+}
 
 class Page implements Handler {
   private readonly canvas = element<HTMLCanvasElement>("map");
@@ -31,6 +37,7 @@ class Page implements Handler {
   private lastMode: Mode | null = null;
   private lastStatus: Status | null = null;
   private lastWindow: WindowState | null = null;
+  private lastPose: Pose | null = null;
   private online = true;
   private pictured = false; // since the line is open
   private answerTimer = 0;
@@ -41,7 +48,11 @@ class Page implements Handler {
     this.surface = new SurfaceView((picture) => this.drew(picture));
     this.services = new ServicesView((command) => send({ order: "restart", command }));
     this.replay = new ReplayBar(send);
-    this.hint = new HintTool(this.mapView, this.canvas, send, () => this.leaveCameraView());
+    this.hint = new HintTool(this.mapView, this.canvas, send, {
+      opened: () => this.leaveCameraView(),
+      said: (text, ok) => this.say(text, ok),
+      tries: (pixels) => this.surface.tryPoints(pixels),
+    });
     this.candidates = new Candidates(this.mapView, send);
     for (const button of document.querySelectorAll<HTMLButtonElement>("#views button")) {
       button.onclick = () => this.setView(button.dataset.view as View);
@@ -70,8 +81,8 @@ class Page implements Handler {
   pose(pose: Pose): void {
     const first = !this.mapView.hasPose;
     this.mapView.setPose(pose);
-    setText("position", pose.position.map((x) => x.toFixed(2).padStart(6)).join(" ") + " m");
-    setText("speed", `${Math.hypot(...pose.velocity).toFixed(2)} m/s`);
+    this.lastPose = pose;
+    this.showReadout();
     if (first) this.showLegend();
   }
 
@@ -84,9 +95,8 @@ class Page implements Handler {
   window(state: WindowState): void {
     this.lastWindow = state;
     this.mapView.setWindow(state);
-    this.plots.add(state);
-    const root = (...at: number[]) => Math.sqrt(at.reduce((sum, i) => sum + Math.max(0, state.covariance[7 * i]!), 0));
-    setText("sigma", `${(1000 * root(0, 1, 2)).toFixed(1)} mm  ${((root(3, 4, 5) * 180) / Math.PI).toFixed(2)}°`);
+    this.plots.add({ ...state, near: this.surface.near });
+    this.showReadout();
     if (state.latencyMs < 0) this.pictureLatencies.clear();
     this.showLatency();
   }
@@ -133,6 +143,8 @@ class Page implements Handler {
   mode(mode: Mode): void {
     this.lastMode = mode;
     if (mode.mode === "tracking") this.candidates.show([]);
+    this.hint.hear(mode);
+    this.showReadout();
     this.showHeadline();
   }
 
@@ -141,21 +153,39 @@ class Page implements Handler {
   }
 
   answer(answer: Answer): void {
-    setText("answer", answer.text);
-    element("answer").classList.toggle("bad", !answer.ok);
+    this.say(answer.text, answer.ok);
+  }
+
+  private say(text: string, ok: boolean): void {
+    setText("answer", text);
+    element("answer").classList.toggle("bad", !ok);
     clearTimeout(this.answerTimer);
     this.answerTimer = window.setTimeout(() => setText("answer", ""), ANSWER_MS);
+  }
+
+  // Figures hold while it tracks; else there is where the body was last.
+  private showReadout(): void {
+    const tracks = this.lastMode?.mode === "tracking";
+    this.mapView.setKnown(tracks);
+    const place = element("position");
+    place.toggleAttribute("data-stale", !tracks);
+    place.title = tracks || !this.lastPose ? "" : "Where it was last: it is not tracked now";
+    const { lastPose: pose, lastWindow: window } = this;
+    setText("position", pose ? `${pose.position.map((x) => x.toFixed(2).padStart(6)).join(" ")} m` : "–");
+    setText("speed", tracks && pose ? `${Math.hypot(...pose.velocity).toFixed(2)} m/s` : "–");
+    setText("sigma", tracks && window?.mode === TRACKING ? sigmas(window) : "–");
   }
 
   // All that is known comes again, perhaps of another pipeline.
   private forget(): void {
     this.pictured = false;
-    this.lastMode = this.lastWindow = null;
+    this.lastMode = this.lastWindow = this.lastPose = null;
+    this.surface.near = null;
     this.pictureLatencies.clear();
     this.plots.clear();
     this.mapView.forget();
     this.candidates.show([]);
-    for (const id of ["position", "speed", "sigma"]) setText(id, "–");
+    this.showReadout();
     this.showLatency();
     this.showLegend();
   }
@@ -178,7 +208,7 @@ class Page implements Handler {
   }
 
   private showHeadline(): void {
-    const { kind, name, reason } = headline({ online: this.online, status: this.lastStatus, mode: this.lastMode, window: this.lastWindow });
+    const { kind, name, reason } = headline({ online: this.online, status: this.lastStatus, mode: this.lastMode, window: this.lastWindow, near: this.surface.near });
     element("mode").dataset.kind = kind;
     setText("mode-sign", SIGNS[kind]);
     setText("mode-name", name);
@@ -208,7 +238,8 @@ class Page implements Handler {
     const [low, high] = mapView.cloud.heights.toArray().map((z) => (Math.round(10 * z) / 10 || 0).toFixed(1).replace("-", "−"));
     const line = (name: string, text: string) => `<span><i style="background:var(--${name})"></i>${text}</span>`;
     const parts = [
-      mapView.hasPose && line("accent", "estimate"),
+      mapView.hasPose && (mapView.isKnown ? line("accent", "estimate") : line("soft", "where it was last")),
+      this.hint.waits && line("bad", "pose sent"),
       mapView.hasTruth && line("truth", "truth"),
       this.candidates.any && line("place", "where it may be"),
       step > 0 && `<span><i class="ramp" style="background:linear-gradient(90deg, ${mapView.cloud.setTheme(isDark())})"></i>height ${low} to ${high} m</span>`,

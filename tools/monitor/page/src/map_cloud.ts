@@ -63,6 +63,10 @@ export class MapCloud {
     return Math.min(this.count, this.object.geometry.drawRange.count);
   }
 
+  point(i: number, to: THREE.Vector3): THREE.Vector3 {
+    return to.fromArray(this.xyz, 3 * i);
+  }
+
   add(piece: MapPiece): void {
     if (piece.generation !== this.generation) {
       this.generation = piece.generation;

@@ -1,5 +1,6 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { AxesCorner } from "./axes_corner";
 import { Body, ellipsoidMatrix, mountOf } from "./body";
 import { color, isDark, onThemeChange } from "./dom";
 import { FramePace } from "./frame_pace";
@@ -39,6 +40,7 @@ export class MapView {
   private readonly trail = new Trail(2);
   private readonly truthTrail = new Trail(1.5);
   private readonly ellipsoid: THREE.Mesh<THREE.SphereGeometry, THREE.MeshBasicMaterial>;
+  private readonly axes = new AxesCorner();
   private grid: THREE.GridHelper | null = null;
   private view: View = "orbit";
   private readonly outside = new THREE.Vector3(); // where it was looked from before the camera's view
@@ -47,6 +49,7 @@ export class MapView {
   private touched = false; // by the user: no more framing
   private dirty = true;
   private turning = false; // by the user, who should not wait
+  private known = true; // where the body is now
   enlarge = 10;
   onLegend: () => void = () => {};
 
@@ -167,8 +170,21 @@ export class MapView {
 
   setWindow(state: WindowState): void {
     this.ellipsoid.matrix.copy(ellipsoidMatrix(state.covariance, state.position, 3 * this.enlarge));
-    this.ellipsoid.visible = this.view !== "camera";
+    this.ellipsoid.visible = this.known && this.view !== "camera";
     this.dirty = true;
+  }
+
+  // Whether the newest pose holds; else it is where the body was last.
+  setKnown(yes: boolean): void {
+    if (yes === this.known) return;
+    this.known = yes;
+    if (!yes) this.ellipsoid.visible = false;
+    this.paintBody();
+    this.onLegend();
+  }
+
+  get isKnown(): boolean {
+    return this.known;
   }
 
   // Nothing is known of a body.
@@ -226,6 +242,7 @@ export class MapView {
     this.cloud.setShare(complete || ALL ? 1 : this.pace.share, FEWEST);
     this.dirty = this.turning = false;
     this.renderer.render(this.scene, this.camera);
+    this.axes.draw(this.camera);
   }
 
   // The floor, in steps of 1, 2 or 5 times a power of ten metres.
@@ -277,12 +294,18 @@ export class MapView {
     this.renderer.setClearColor(color("panel"));
     this.cloud.setTheme(isDark());
     this.trail.setColor(color("accent"));
-    this.body.setColor(color("accent"));
+    this.paintBody();
     this.ellipsoid.material.color.set(color("accent"));
     this.truth.setColor(color("truth"));
     this.truthTrail.setColor(color("truth"));
     this.ghost.setColor(color("bad"));
     this.paintGrid();
+    this.dirty = true;
+  }
+
+  private paintBody(): void {
+    this.body.setColor(color(this.known ? "accent" : "soft"));
+    this.body.setOpacity(this.known ? 1 : 0.5);
     this.dirty = true;
   }
 

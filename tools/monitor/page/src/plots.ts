@@ -1,6 +1,6 @@
 import uPlot from "uplot";
 import { color, element, onThemeChange, setText } from "./dom";
-import type { WindowState } from "./frames";
+import { TRACKING, type WindowState } from "./frames";
 
 const SPAN_S = 60;
 const SHORTEST_S = 10; // shown, until there is more
@@ -25,7 +25,9 @@ const sigma = (state: WindowState, first: number) =>
 // Okabe and Ito; dashes too, so that curves differ without colour.
 const [BLUE, ORANGE, GREEN] = ["#2f8fd0", "#d98b00", "#12a07a"];
 
-const one = (of: (state: WindowState) => number): Curve[] => [{ label: "", color: BLUE, of }];
+// Nobody knows how sure it is while it does not track.
+const tracked = (state: WindowState, of: (state: WindowState) => number) => (state.mode === TRACKING ? of(state) : null);
+const one = (of: (state: WindowState) => number | null): Curve[] => [{ label: "", color: BLUE, of }];
 const xyz = (of: (state: WindowState) => number[]): Curve[] => [
   { label: "x", color: BLUE, of: (s) => of(s)[0]! },
   { label: "y", color: ORANGE, dash: [6, 3], of: (s) => of(s)[1]! },
@@ -34,8 +36,8 @@ const xyz = (of: (state: WindowState) => number[]): Curve[] => [
 
 const PLANS: Plan[] = [
   { title: "Velocity", unit: "m/s", digits: 2, curves: xyz((s) => s.velocity) },
-  { title: "σ position", unit: "mm", digits: 1, curves: one((s) => 1000 * sigma(s, 0)) },
-  { title: "σ rotation", unit: "°", digits: 2, curves: one((s) => (180 / Math.PI) * sigma(s, 3)) },
+  { title: "σ position", unit: "mm", digits: 1, curves: one((s) => tracked(s, () => 1000 * sigma(s, 0))) },
+  { title: "σ rotation", unit: "°", digits: 2, curves: one((s) => tracked(s, () => (180 / Math.PI) * sigma(s, 3))) },
   { title: "Gyro bias", unit: "rad/s", digits: 3, curves: xyz((s) => s.gyroBias) },
   { title: "Acc. bias", unit: "m/s²", digits: 3, curves: xyz((s) => s.accelBias) },
   {
@@ -48,7 +50,7 @@ const PLANS: Plan[] = [
       { label: "latency", color: GREEN, dash: [2, 2], of: (s) => (s.latencyMs < 0 ? null : s.latencyMs) },
     ],
   },
-  { title: "On edges", unit: "%", digits: 0, curves: one((s) => 100 * s.inlierShare) },
+  { title: "Near events", unit: "% of points", digits: 0, curves: one((s) => (s.near == null ? null : 100 * s.near)) },
 ];
 
 class Plot {
@@ -79,7 +81,8 @@ class Plot {
     const data = this.plan.curves.map((curve) => states.map(curve.of));
     this.plot?.setData([seconds, ...data]);
     const last = states.at(-1);
-    this.newest.textContent = last ? (this.plan.curves[0]!.of(last) ?? 0).toFixed(this.plan.digits) : "";
+    const newest = last ? this.plan.curves[0]!.of(last) : null;
+    this.newest.textContent = last ? (newest?.toFixed(this.plan.digits) ?? "–") : "";
   }
 
   private make(): void {

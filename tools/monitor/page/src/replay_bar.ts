@@ -1,6 +1,6 @@
 import type { Order } from "./connection";
 import { element, setText } from "./dom";
-import { placeOf } from "./headline";
+import { isOver, placeOf } from "./headline";
 import { isSilent } from "./services_view";
 import type { Status } from "./status";
 
@@ -14,6 +14,7 @@ export class ReplayBar {
   private paused = false;
   private atEnd = false;
   private heldUntil = 0;
+  private speedHeldUntil = 0;
 
   constructor(private readonly send: (order: Order) => void) {
     this.button.onclick = () => {
@@ -31,16 +32,22 @@ export class ReplayBar {
       this.hold();
       this.send({ order: "seek", share: Number(this.slider.value) / 1000 });
     };
-    this.speed.onchange = () => this.send({ order: "speed", speed: Number(this.speed.value) });
+    this.speed.onchange = () => {
+      this.speedHeldUntil = performance.now() + HOLD_MS;
+      this.send({ order: "speed", speed: Number(this.speed.value) });
+    };
   }
 
   show(status: Status): void {
     const replay = status.services.find((service) => service.name === "log_replay");
-    const usable = !!replay && !status.read_only && !isSilent(replay);
+    const over = isOver(status);
+    const usable = !!replay && !status.read_only && !isSilent(replay) && !over;
     element("replay").hidden = !replay;
     for (const control of [this.slider, this.button, this.speed]) control.disabled = !usable;
     if (!replay) return;
-    setText("place", placeOf(replay) || replay.state);
+    this.button.title = over ? "the run has ended: nobody plays it any more" : "";
+    if (placeOf(replay)) setText("place", placeOf(replay));
+    this.showSpeed((replay.counters.speed_percent ?? 100) / 100);
     if (performance.now() < this.heldUntil) return;
     this.atEnd = replay.progress >= 1;
     this.showPaused(replay.state === "paused" || this.atEnd);
@@ -49,6 +56,20 @@ export class ReplayBar {
 
   private hold(): void {
     this.heldUntil = performance.now() + HOLD_MS;
+  }
+
+  // Any speed: the one it was started with need not be in the list.
+  private showSpeed(speed: number): void {
+    if (performance.now() < this.speedHeldUntil || document.activeElement === this.speed) return;
+    const value = speed > 0 ? String(speed) : "";
+    const options = [...this.speed.options];
+    if (!options.some((option) => option.value === value)) {
+      for (const option of options) if (option.dataset.extra) option.remove();
+      const extra = new Option(speed > 0 ? `${speed}×` : "as fast as it goes", value);
+      extra.dataset.extra = "yes";
+      this.speed.add(extra, 0);
+    }
+    this.speed.value = value;
   }
 
   private showPaused(paused: boolean): void {

@@ -36,11 +36,24 @@ function withoutFolders(detail: string): string {
   return detail.replace(/(^|\s)\/(?:[^\s:/]+\/)+/g, "$1");
 }
 
-function lossesOf(service: Service): string {
-  const losses = Object.entries(service.counters).filter(
-    ([name, value]) => value > 0 && (/\.(lost|invalid|dropped|overrun)$/.test(name) || name === "bus.queue_drops") && !name.startsWith("mode."),
-  );
-  return losses.map(([name, value]) => `${name} ${value.toLocaleString("en")}`).join(", ");
+const THINGS: Record<string, string> = { KEYFRAME: "keyframes", EVENTS: "event packets", IMU: "IMU batches", MAP_POINTS: "map answers", TRACKER_MODE: "tracker's answers" };
+const FATES: Record<string, string> = {
+  lost: "lost on the way",
+  dropped: "left out, as there was no time for them",
+  invalid: "not valid",
+  overrun: "overrun",
+};
+
+// What did not reach it or was not used, in words.
+export function lossesOf(service: Service): string {
+  const parts = Object.entries(service.counters).flatMap(([name, value]) => {
+    if (value === 0) return [];
+    if (name === "bus.queue_drops") return [`${value.toLocaleString("en")} messages too many at once`];
+    const [, thing, fate] = /^(.+)\.(lost|invalid|dropped|overrun)$/.exec(name) ?? [];
+    if (!thing || thing === "mode") return [];
+    return [`${value.toLocaleString("en")} ${THINGS[thing] ?? `of ${thing}`} ${FATES[fate!]}`];
+  });
+  return parts.join(", ");
 }
 
 // What waits in the service now.
@@ -111,7 +124,7 @@ export class ServicesView {
     const losses = lossesOf(service);
     if (losses) {
       const loss = document.createElement("em");
-      loss.textContent = `${losses} · `;
+      loss.textContent = losses;
       detail.append(loss);
     }
     detail.append(withoutFolders(service.detail));

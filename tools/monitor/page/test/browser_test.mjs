@@ -106,6 +106,7 @@ async function test() {
   await page.click("#play");
   await until("the pause", async () => (await page.getAttribute('tr[data-service="log_replay"] .state', "data-kind")) === "wait");
   assert.equal(await text("mode-name"), "paused");
+  assert.equal(await page.inputValue("#replay-speed"), "1");
   const held = await placeOf();
   await seek(0.5);
   await until("the place sought", async () => Math.abs((await placeOf()) - 1.5) < 0.1);
@@ -118,21 +119,45 @@ async function test() {
   assert.ok(await page.isHidden("#hint-form"));
   await page.click("#hint");
   const before = await page.inputValue("#hint-x");
-  const box = await page.locator("#map").boundingBox();
-  await page.mouse.move(box.x + 0.3 * box.width, box.y + 0.7 * box.height);
+  await page.click("#hint-view"); // the map from where it is looked at
+  assert.notEqual(await page.inputValue("#hint-x"), before);
+  // The form is moved out of the way.
+  const grip = await page.locator("#hint-grip").boundingBox();
+  await page.mouse.move(grip.x + 20, grip.y + 5);
   await page.mouse.down();
-  await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.5 * box.height, { steps: 4 });
+  await page.mouse.move(grip.x - 380, grip.y + 5, { steps: 3 });
+  await page.mouse.up();
+  assert.ok((await page.locator("#hint-grip").boundingBox()).x < grip.x - 300);
+  await page.click("#hint-draw");
+  const box = await page.locator("#map").boundingBox();
+  await page.mouse.move(box.x + 0.7 * box.width, box.y + 0.7 * box.height);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.9 * box.width, box.y + 0.5 * box.height, { steps: 4 });
   await page.mouse.up();
   assert.notEqual(await page.inputValue("#hint-x"), before);
   await page.click("#hint-send");
   await until("the answer to a hint", async () => (await text("answer")).includes("pose sent"));
+  assert.match(await text("map-legend"), /pose sent/); // until the tracker has tried it, which it cannot while paused
   step("gave a pose by mouse");
 
-  // The right one, from the beginning: it tracks again.
+  // Figures of a body that is not tracked are none; a tracker that tries the pose and is lost has refused it.
+  line.send(JSON.stringify({ type: "mode", mode: "bootstrapping", reason: "restarting from a pose hint" }));
+  await until("no figures", async () => (await text("sigma")) === "–" && (await text("speed")) === "–");
+  assert.ok(await page.locator("#position[data-stale]").count());
+  assert.match(await text("map-legend"), /where it was last/);
+  line.send(JSON.stringify({ type: "mode", mode: "lost", reason: "the map does not lie on the events" }));
+  await until("the refusal", async () => (await text("answer")).includes("does not find the map around the pose sent"));
+  assert.doesNotMatch(await text("map-legend"), /pose sent/);
+  step("a pose was refused, and no figure is shown as if it held");
+
+  // From the beginning: it tracks again, though nobody gives it the pose.
   await seek(0);
+  await until("what was done", async () => (await text("answer")).includes("where the body was then"));
   await page.click("#play");
+  await until("tracking again", async () => (await text("mode-name")) === "tracking" || (await placeOf()) >= 3);
+  await until("figures", async () => /mm/.test(await text("sigma")));
   await hintStart();
-  step("a second viewer came and went");
+  step("the replay went back and was tracked again; a second viewer came and went");
 
   for (const service of ["map_server", "frame_builder", "window_optimizer", "log_replay"]) {
     const pid = await until(`the process of ${service}`, () => pidOf(service));
@@ -157,6 +182,31 @@ async function test() {
   assert.ok(await page.isDisabled("#play"));
   step("the monitor's worker died, the monitor was stopped and started again");
   up.kill("SIGTERM");
+  await until("the end of the pipeline", () => up.exitCode !== null);
+  await pauseARun();
+}
+
+// evit run tells the replay to begin; a pause after that is the viewer's, and holds.
+async function pauseARun() {
+  const run = pipeline.run("run", "--realtime", "--speed", "0.2", "--log", pipeline.environment.EVIT_LOG, "--map", pipeline.environment.EVIT_MAP, "--rig",
+    pipeline.environment.EVIT_RIG, "--initial-pose", pipeline.start, "--out", "result", "--monitor", "--monitor-port", String(PORT + 1));
+  const other = await browser.newPage({ viewport: { width: 800, height: 520 } });
+  other.on("pageerror", (error) => errors.push(error.message));
+  const read = (id) => other.textContent(`#${id}`);
+  await until("the run's page", () => other.goto(`http://127.0.0.1:${PORT + 1}/`).catch(() => null));
+  await until("the run", async () => parseFloat(await read("place")) > 0.1);
+  assert.equal(await other.inputValue("#replay-speed"), "0.2");
+  await other.click("#play");
+  await until("the pause", async () => (await read("mode-name")) === "paused");
+  const place = await read("place");
+  await new Promise((done) => setTimeout(done, 2000)); // orders to begin came every half second
+  assert.equal(await read("place"), place);
+  assert.equal(await read("mode-name"), "paused");
+  await other.click("#play");
+  await until("it goes on", async () => (await read("place")) !== place);
+  run.kill("SIGINT");
+  await until("the run's end", () => run.exitCode !== null);
+  step("a run was paused and went on");
 }
 
 let failed = true;

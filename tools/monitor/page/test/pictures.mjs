@@ -65,13 +65,14 @@ async function pictures() {
   await headline(page, "paused");
   await page.click('[data-view="orbit"]');
   await page.click("#hint");
+  await page.click("#hint-draw");
   const box = await page.locator("#map").boundingBox();
   await page.mouse.move(box.x + 0.42 * box.width, box.y + 0.62 * box.height);
   await page.mouse.down();
   await page.mouse.move(box.x + 0.62 * box.width, box.y + 0.6 * box.height, { steps: 5 });
   await page.mouse.up();
   await wait(1);
-  await take(page, "monitor-hint.png", "#map-panel");
+  await take(page, "monitor-hint.png");
   await page.click("#hint-cancel");
   await end(up);
 
