@@ -16,7 +16,8 @@ constexpr double kKernelPx = 0.7;
 constexpr double kInlierPx = 1.0;
 constexpr int kBorderPx = 6;
 constexpr std::size_t kPointsPerPose = 2500;
-constexpr double kAlike = 5;  // points on one edge err together: so many of them are worth one
+constexpr int kViewsPerPoint = 150;  // about, while points are on their way
+constexpr double kAlike = 5;         // points on one edge err together: so many of them are worth one
 
 // A point's distance to the edge it is seen as, across, and its derivative by the point in the camera frame.
 struct Sighting {
@@ -100,12 +101,15 @@ std::vector<std::int32_t> EdgeAdjustment::Visible(const PosedEdges& view,
   return ids;
 }
 
-void EdgeAdjustment::Collect(const PosedEdges& view, const std::vector<MappedPoint>& points, double radius,
+void EdgeAdjustment::Collect(int k, const std::vector<MappedPoint>& points, const Search& search,
                              std::vector<Sums>* sums, double* squares, std::size_t* n) const {
+  const PosedEdges& view = (*views_)[k];
   const PinholeView pinhole(view.T_map_camera, view.camera);
   for (const std::int32_t id : Visible(view, points)) {
+    if ((id + k) % search.every != 0) continue;
     Sighting sighting;
-    if (!Look(pinhole, view, points[id], pinhole.InCamera(points[id].position), radius, &sighting)) continue;
+    const Eigen::Vector3d p = pinhole.InCamera(points[id].position);
+    if (!Look(pinhole, view, points[id], p, search.radius, &sighting)) continue;
     Sums& s = (*sums)[id];
     ++s.expected;
     if (!sighting.found) continue;
@@ -169,6 +173,8 @@ AdjustmentSummary EdgeAdjustment::Run(std::vector<MappedPoint>* points) {
     const bool last = round == options_.rounds;
     const double radius = options_.first_radius_px + (options_.last_radius_px - options_.first_radius_px) *
                                                          round / std::max(1, options_.rounds);
+    // In the end a point is asked for in all views: how many show it counts.
+    const Search search{radius, last ? 1 : 1 + (n_views - 1) / kViewsPerPoint};
     // In parts of fixed size, summed in their order: the same result whatever the number of threads.
     const int parts = std::min(8, n_views);
     std::vector<std::vector<Sums>> sums(parts, std::vector<Sums>(points->size()));
@@ -176,7 +182,7 @@ AdjustmentSummary EdgeAdjustment::Run(std::vector<MappedPoint>* points) {
     std::vector<std::size_t> n(parts, 0);
     ParallelFor(parts, threads_, [&](int part) {
       for (int k = part; k < n_views; k += parts)
-        Collect((*views_)[k], *points, radius, &sums[part], &squares[part], &n[part]);
+        Collect(k, *points, search, &sums[part], &squares[part], &n[part]);
     });
     double square = 0;
     std::size_t count = 0;
@@ -193,7 +199,8 @@ AdjustmentSummary EdgeAdjustment::Run(std::vector<MappedPoint>* points) {
       point.seen = total.expected > 0 ? static_cast<double>(total.seen) / total.expected : 0;
       // The first rounds are lenient: points and poses are still on their way.
       const double strict = last ? 1 : 0.6;
-      if (total.seen < strict * options_.min_views || point.seen < strict * options_.min_share) continue;
+      if (total.seen < strict * options_.min_views / search.every || point.seen < strict * options_.min_share)
+        continue;
       // Of the lag nothing but its prior is known where there are no event views, and nothing changes.
       total.lag_information += 1 / (options_.lag_sigma_px * options_.lag_sigma_px);
       total.lag_gradient += point.lag / (options_.lag_sigma_px * options_.lag_sigma_px);

@@ -43,7 +43,12 @@ class EdgeAdjustment {
  private:
   struct Sums;
   std::vector<std::int32_t> Visible(const PosedEdges& view, const std::vector<MappedPoint>& points) const;
-  void Collect(const PosedEdges& view, const std::vector<MappedPoint>& points, double radius,
+  // How points are looked for in the views: within what radius, px, and each in every how many-th view.
+  struct Search {
+    double radius;
+    int every;
+  };
+  void Collect(int view, const std::vector<MappedPoint>& points, const Search& search,
                std::vector<Sums>* sums, double* squares, std::size_t* n) const;
   void MovePose(const std::vector<MappedPoint>& points, double radius, const SE3& given,
                 PosedEdges* view) const;

@@ -48,6 +48,7 @@ class Detector {
         if (Peak(column, row)) index.at<int>(row, column) = static_cast<int>(found_.size()) - 1;
       }
     }
+    FitNormals(index, &found_);
     std::vector<char> sure;
     sure.reserve(found_.size());
     for (const EdgePixel& e : found_) sure.push_back(e.contrast >= options_.sure_contrast ? 1 : 0);

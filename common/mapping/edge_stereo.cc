@@ -81,7 +81,10 @@ EdgeStereo::Fit EdgeStereo::Refine(const EdgePixel& edge, const std::vector<Neig
       const double j = normal.dot(move) / options_.edge_sigma_px;
       const double scaled = r * options_.edge_sigma_px / kKernelPx;
       const double w = 1 / (1 + scaled * scaled);
-      a += w * j * j, b += w * j, c += w;
+      // An edge along the epipolar line says nothing, however its direction is measured: what an error of it
+      // seems to say is taken off again.
+      const double seeming = options_.normal_sigma * move.norm() / options_.edge_sigma_px;
+      a += w * (j * j - seeming * seeming), b += w * j, c += w;
       ga += w * j * r, gb += w * r;
       const double late = n.late / options_.edge_sigma_px;
       al += w * j * late, bl += w * late, l += w * late * late, gl += w * r * late;

@@ -137,6 +137,7 @@ void EventView::AddRidges(const cv::Mat& warped, double sign, const CameraSweep&
       sure.push_back(mass >= options_.sure_events ? 1 : 0);
     }
   }
+  FitNormals(index, &found);
   const std::vector<EdgePixel> lines = KeepLines(index, found, sure, options_.min_length);
   edges->insert(edges->end(), lines.begin(), lines.end());
 }

@@ -12,6 +12,8 @@ namespace {
 
 using CellKey = std::uint64_t;
 
+constexpr double kSameWay = 0.85;  // cosine of the angle between the directions of one line's points
+
 // Three numbers of 20 bits and `extra` below 16.
 CellKey Key(const Eigen::Vector3i& cell, unsigned extra) {
   CellKey key = extra;
@@ -47,6 +49,53 @@ struct Mean {
   }
 };
 
+// Points by cells as large as the farthest neighbour that is looked for.
+class PointCells {
+ public:
+  PointCells(const std::vector<MappedPoint>& points, double reach) : points_(points), reach_(reach) {
+    for (std::size_t k = 0; k < points.size(); ++k)
+      cells_[Key(CellOf(points[k].position, reach), 0)].push_back(static_cast<std::uint32_t>(k));
+  }
+
+  // Calls visit(other, along, across) for all points of about the direction of `own`, itself too, no farther
+  // from it along its line than the reach and across than `aside`.
+  template <typename Visit>
+  void VisitLine(const MappedPoint& own, double aside, const Visit& visit) const {
+    const Eigen::Vector3i middle = CellOf(own.position, reach_);
+    for (int dx = -1; dx <= 1; ++dx) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dz = -1; dz <= 1; ++dz) {
+          const auto it = cells_.find(Key(middle + Eigen::Vector3i(dx, dy, dz), 0));
+          if (it == cells_.end()) continue;
+          for (const std::uint32_t j : it->second) {
+            const MappedPoint& other = points_[j];
+            if (other.direction.dot(own.direction) < kSameWay) continue;
+            const Eigen::Vector3d off = other.position - own.position;
+            const double along = off.dot(own.direction);
+            const Eigen::Vector3d across = off - along * own.direction;
+            if (std::abs(along) <= reach_ && across.norm() <= aside) visit(other, along, across);
+          }
+        }
+      }
+    }
+  }
+
+ private:
+  const std::vector<MappedPoint>& points_;
+  double reach_;
+  std::unordered_map<CellKey, std::vector<std::uint32_t>> cells_;
+};
+
+// Calls work(k) for all points, by several threads.
+template <typename Work>
+void ForEachPoint(std::size_t n, int threads, const Work& work) {
+  constexpr std::size_t kBlock = 512;
+  ParallelFor(static_cast<int>((n + kBlock - 1) / kBlock), threads, [&](int block) {
+    const std::size_t begin = static_cast<std::size_t>(block) * kBlock;
+    for (std::size_t k = begin; k < std::min(n, begin + kBlock); ++k) work(k);
+  });
+}
+
 double WeightOf(const MappedPoint& p) { return 1 / (p.sigma * p.sigma + 1e-8); }
 
 }  // namespace
@@ -81,45 +130,23 @@ std::vector<MappedPoint> ThinToLines(const std::vector<MappedPoint>& points,
     }
   }
   // Onto the line through the neighbours: only across it, so that lines keep their ends.
-  std::unordered_map<CellKey, std::vector<std::uint32_t>> cells;
-  for (std::size_t k = 0; k < thin.size(); ++k)
-    cells[Key(CellOf(thin[k].position, options.reach_m), 0)].push_back(static_cast<std::uint32_t>(k));
+  const PointCells cells(thin, options.reach_m);
   std::vector<MappedPoint> moved = thin;
-  constexpr int kBlock = 512;
-  const int blocks = static_cast<int>((thin.size() + kBlock - 1) / kBlock);
-  ParallelFor(blocks, threads, [&](int block) {
-    const std::size_t end = std::min(thin.size(), static_cast<std::size_t>(block + 1) * kBlock);
-    for (std::size_t k = static_cast<std::size_t>(block) * kBlock; k < end; ++k) {
-      const MappedPoint& own = thin[k];
-      const Eigen::Vector3i middle = CellOf(own.position, options.reach_m);
-      // No farther aside than what the errors allow: beside a line there may be another.
-      const double aside = std::clamp(2.5 * own.sigma, options.voxel_m, options.reach_m);
-      Eigen::Vector3d off_sum = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::Zero();
-      double weight = 0;
-      for (int dx = -1; dx <= 1; ++dx) {
-        for (int dy = -1; dy <= 1; ++dy) {
-          for (int dz = -1; dz <= 1; ++dz) {
-            const auto it = cells.find(Key(middle + Eigen::Vector3i(dx, dy, dz), 0));
-            if (it == cells.end()) continue;
-            for (const std::uint32_t j : it->second) {
-              const MappedPoint& other = thin[j];
-              if (other.direction.dot(own.direction) < 0.85) continue;
-              const Eigen::Vector3d off = other.position - own.position;
-              const double along = off.dot(own.direction);
-              const Eigen::Vector3d across = off - along * own.direction;
-              if (std::abs(along) > options.reach_m || across.norm() > aside) continue;
-              const double near = std::exp(-2 * along * along / (options.reach_m * options.reach_m));
-              const double w = near * WeightOf(other);
-              weight += w;
-              off_sum += w * across;
-              direction += w * other.direction;
-            }
-          }
-        }
-      }
-      moved[k].position = own.position + off_sum / weight;
-      moved[k].direction = direction.normalized();
-    }
+  ForEachPoint(thin.size(), threads, [&](std::size_t k) {
+    const MappedPoint& own = thin[k];
+    // No farther aside than what the errors allow: beside a line there may be another.
+    const double aside = std::clamp(2.5 * own.sigma, options.voxel_m, options.reach_m);
+    Eigen::Vector3d off_sum = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::Zero();
+    double weight = 0;
+    cells.VisitLine(own, aside, [&](const MappedPoint& other, double along, const Eigen::Vector3d& across) {
+      const double near = std::exp(-2 * along * along / (options.reach_m * options.reach_m));
+      const double w = near * WeightOf(other);
+      weight += w;
+      off_sum += w * across;
+      direction += w * other.direction;
+    });
+    moved[k].position = own.position + off_sum / weight;
+    moved[k].direction = direction.normalized();
   });
   // Neighbours that have become one.
   std::unordered_map<CellKey, std::size_t> places;
@@ -132,6 +159,25 @@ std::vector<MappedPoint> ThinToLines(const std::vector<MappedPoint>& points,
     } else if (p.sigma < lines[it->second].sigma) {
       lines[it->second] = p;
     }
+  }
+  return lines;
+}
+
+std::vector<MappedPoint> DropLonePoints(const std::vector<MappedPoint>& points,
+                                        const LineThinningOptions& options, int threads) {
+  const double reach = 2 * options.reach_m;
+  const auto least = static_cast<int>(std::lround(options.min_share * 2 * reach / options.voxel_m));
+  const PointCells cells(points, reach);
+  std::vector<char> kept(points.size(), 0);
+  ForEachPoint(points.size(), threads, [&](std::size_t k) {
+    int n = 0;  // one voxel has one point
+    cells.VisitLine(points[k], std::max(options.voxel_m, 0.6 * options.reach_m),
+                    [&](const MappedPoint&, double, const Eigen::Vector3d&) { ++n; });
+    kept[k] = n >= least ? 1 : 0;
+  });
+  std::vector<MappedPoint> lines;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (kept[k] != 0) lines.push_back(points[k]);
   }
   return lines;
 }

@@ -7,8 +7,9 @@
 namespace evit {
 
 struct LineThinningOptions {
-  double voxel_m = 0.004;  // one point and direction each
-  double reach_m = 0.015;  // along and around a line: points that have a say in where it runs
+  double voxel_m = 0.004;   // one point and direction each
+  double reach_m = 0.015;   // along and around a line: points that have a say in where it runs
+  double min_share = 0.25;  // of the voxels on the line through a point that hold points as well, see below
 };
 
 /// Thins the bundle of points that many views leave along each edge to a line: points move onto the line
@@ -16,5 +17,11 @@ struct LineThinningOptions {
 /// and main direction stays. In the order of the first point of each voxel.
 std::vector<MappedPoint> ThinToLines(const std::vector<MappedPoint>& points,
                                      const LineThinningOptions& options, int threads);
+
+/// Leaves out points that lie on no line of others: of the voxels within twice the reach along its direction
+/// a share of `min_share` has to hold points of the same direction. What is left of an edge that was seen as
+/// another one lies scattered in depth.
+std::vector<MappedPoint> DropLonePoints(const std::vector<MappedPoint>& points,
+                                        const LineThinningOptions& options, int threads);
 
 }  // namespace evit

@@ -78,7 +78,8 @@ void Finish(std::vector<PosedEdges> views, const std::vector<KeyDepths>& depths,
   points = ThinToLines(points, options.thinning, options.threads);
   progress(0.75, "fitting points and poses to all views");
   map->adjustment = EdgeAdjustment(&views, options.adjustment, options.threads).Run(&points);
-  map->points = ThinToLines(points, options.thinning, options.threads);
+  points = ThinToLines(points, options.thinning, options.threads);
+  map->points = DropLonePoints(points, options.thinning, options.threads);
   for (const PosedEdges& view : views) map->poses.push_back(view.T_map_camera);
   progress(1, std::to_string(map->points.size()) + " points");
 }
