@@ -38,7 +38,8 @@ TEST(ThinToLines, MakesOneLineOfABundle) {
   for (std::size_t k = 0; k < line.size(); ++k) EXPECT_EQ(again[k].position, line[k].position);
 }
 
-// What was mismatched lies about, each point in a depth of its own; points of another direction do not help it.
+// What was mismatched lies about, each point in a depth of its own; points of another direction do not help
+// it.
 TEST(DropLonePoints, KeepsLinesToTheirEndsAndDropsWhatLiesAbout) {
   std::vector<MappedPoint> points;
   for (int k = 0; k < 50; ++k) points.push_back(PointAt(0.004 * k, 0, 1));

@@ -139,6 +139,7 @@ BuiltMap BuildMapFromDepths(std::vector<PosedEdges> views, std::vector<KeyDepths
   map.typical_depth_m = Median(all);
   MapBuilderOptions held = options;
   held.adjustment.hold_sigmas = 1;  // measured, not triangulated: two views are enough to believe a place
+  held.thinning.min_share = 0;      // and no depth is one of another edge
   held.adjustment.min_views = std::min(options.adjustment.min_views, 3);
   held.adjustment.min_share = std::min(options.adjustment.min_share, 0.25);
   held.fusion.min_other_keys = std::min(options.fusion.min_other_keys, 1);
