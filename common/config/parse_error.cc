@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/config/field_rules.h"
+#include "common/text/edit_distance.h"
 
 namespace evit {
 namespace {
@@ -55,22 +56,6 @@ std::vector<Key> KeysBefore(const std::string& text, const ParseFault& fault) {
   return keys;
 }
 
-// Levenshtein's.
-std::size_t Distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t swapped = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, swapped});
-    }
-  }
-  return row[b.size()];
-}
-
 // The key that is nearest to `key` in all of the schema; near ones beside it come first. `best`: how far it
 // is.
 void FindNearest(const Descriptor* type, const std::string& parent, const Key& key, std::size_t* best,
@@ -79,7 +64,7 @@ void FindNearest(const Descriptor* type, const std::string& parent, const Key& k
     const FieldDescriptor* field = type->field(k);
     if (field->options().deprecated()) continue;
     const std::string here = parent.empty() ? field->name() : parent + "." + field->name();
-    const std::size_t distance = 2 * Distance(field->name(), key.name) + (parent == key.parent ? 0 : 1);
+    const std::size_t distance = 2 * EditDistance(field->name(), key.name) + (parent == key.parent ? 0 : 1);
     if (distance < *best) {
       *best = distance;
       *path = here;

@@ -132,11 +132,10 @@ std::string GravityComplaint(const std::vector<ImuSample>& samples, const Eigen:
              "at the start the accelerometer's mean, which should point up, lies %.0f deg off the map's z "
              "axis: ",
              degrees) +
-         (degrees > 120
-              ? "is the accelerometer's sign turned (it must read +9.81 along the axis that points up), or "
-                "does "
-                "the map's z axis point down?"
-              : "is the start pose that of the IMU (not the camera's), and does the map's z axis point up?");
+         "is the start pose that of the IMU (neither the camera's nor a marker's)? If so, " +
+         (degrees > 120 ? "is the accelerometer's sign turned (it must read +9.81 along the axis that points "
+                          "up), or does the map's z axis point down?"
+                        : "does the map's z axis point up?");
 }
 
 }  // namespace evit

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/geometry/degrees.h"
+#include "common/text/format_text.h"
 
 namespace evit {
 namespace {
@@ -45,6 +46,21 @@ PlacePrior ParsePlacePrior(const std::string& near, const std::string& height, c
     prior.heading = {n[0] * kRadiansPerDegree, n[1] * kRadiansPerDegree};
   }
   return prior;
+}
+
+std::string PriorText(const PlacePrior& prior) {
+  std::string text;
+  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (prior.near) {
+    const Eigen::Vector3d& p = prior.near->position;
+    add(FormatText("within %.2g m of (%.2f, %.2f, %.2f)", prior.near->radius, p.x(), p.y(), p.z()));
+  }
+  if (prior.height) add(FormatText("between %.2f and %.2f m high", prior.height->low, prior.height->high));
+  if (prior.heading) {
+    add(FormatText("at a yaw of %.0f +- %.0f deg", kDegreesPerRadian * prior.heading->yaw,
+                   kDegreesPerRadian * prior.heading->tolerance));
+  }
+  return text;
 }
 
 }  // namespace evit

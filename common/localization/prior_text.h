@@ -11,4 +11,8 @@ namespace evit {
 /// std::runtime_error naming the option (--near, --height, --yaw), the text and what was expected.
 PlacePrior ParsePlacePrior(const std::string& near, const std::string& height, const std::string& yaw);
 
+/// "within 0.3 m of (3.00, 3.00, 1.00), between 1.00 and 2.00 m high, at a yaw of 90 +- 20 deg"; empty where
+/// nothing is known.
+std::string PriorText(const PlacePrior& prior);
+
 }  // namespace evit

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/imu/propagation.h"
+#include "common/localization/prior_text.h"
 #include "common/localization/upright.h"
 #include "common/text/format_text.h"
 #include "common/tracking/visual_inertial_alignment.h"
@@ -117,7 +118,11 @@ void SelfLocator::AskEverywhere(const View& view, std::vector<SE3> hypotheses) {
   searched_ = view.t;
   question_ = PlaceQuery{
       ++asked_, view.t, view.surface, Tilted(upright, asked_), true, std::move(hypotheses), options_.prior};
-  if (places_.empty()) progress_ = "searching the whole map";
+  if (places_.empty()) progress_ = "searching " + Searched();
+}
+
+std::string SelfLocator::Searched() const {
+  return options_.prior.open() ? "the map" : "the map " + PriorText(options_.prior);
 }
 
 void SelfLocator::AddAnswer(const std::vector<PlaceCandidate>& answer) {
@@ -130,7 +135,7 @@ void SelfLocator::AddAnswer(const std::vector<PlaceCandidate>& answer) {
 
 void SelfLocator::Decide() {
   if (places_.empty()) {
-    progress_ = "nothing in the map looks like what the events show";
+    progress_ = "nothing in " + Searched() + " looks like what the events show";
     return;
   }
   const FollowedPlace& best = places_.Best();

@@ -75,6 +75,7 @@ class SelfLocator {
 
   void AskNext();
   void AskEverywhere(const View& view, std::vector<SE3> hypotheses);
+  std::string Searched() const;  // "the map", or the part of it that the prior leaves
   void Decide();
   std::string WhatDisagrees(const FollowedPlace& place) const;
   bool Aligned(const FollowedPlace& place, BodyState* state) const;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tools/evit/commands.h"
+#include "tools/evit/usage_error.h"
 
 namespace {
 
@@ -45,10 +46,14 @@ int Main(int argc, char** argv) {
   evit::commands::AddTopCommand(&app);
   evit::commands::AddRenderCommand(&app);
   try {
+    if (argc < 2) {
+      std::fputs(app.help().c_str(), stderr);
+      return static_cast<int>(CLI::ExitCodes::RequiredError);
+    }
     RequireKnownCommand(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error);
+    return evit::commands::SayUsageError(app, error);
   } catch (const std::exception& error) {
     const auto chosen = app.get_subcommands();
     const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();

@@ -33,18 +33,21 @@ Trajectory ReadTruth(const std::string& path) {
 // An IMU that cannot be tracked with, told before anything is started.
 void CheckImu(const RunJob& job, const LogSpan& span, const std::optional<SE3>& T_map_body) {
   if (job.tolerate.any_imu) return;
-  std::string complaint = ImuComplaint(span.imu);
-  if (complaint.empty() && T_map_body) {
+  if (const std::string complaint = ImuComplaint(span.imu); !complaint.empty()) {
+    throw std::runtime_error(
+        job.log + ": " + complaint +
+        "; import it again with --accel-unit or --gyro-unit, or run it as it is with --any-imu");
+  }
+  if (T_map_body) {
     std::vector<ImuSample> first;
     for (const ImuSample& s : span.imu) {
       if (s.t >= span.begin && s.t < span.begin + kMicrosPerSecond / 2) first.push_back(s);
     }
-    complaint = GravityComplaint(first, T_map_body->q);
+    if (const std::string complaint = GravityComplaint(first, T_map_body->q); !complaint.empty())
+      throw std::runtime_error((job.initial_from.empty() ? "--initial-pose" : job.initial_from) + ": " +
+                               complaint +
+                               " Without a start pose the place is looked for; --any-imu runs it as it is");
   }
-  if (complaint.empty()) return;
-  throw std::runtime_error(
-      job.log + ": " + complaint +
-      "; import it again with --accel-unit or --gyro-unit, or run it as it is with --any-imu");
 }
 
 std::optional<SE3> StartPose(const RunJob& job, Utime begin) {

@@ -17,6 +17,7 @@
 namespace evit::run {
 namespace {
 
+constexpr double kAbsurdNees = 25;  // of a degree of freedom: five sigma are no matter of the covariance
 constexpr double kLateStart = 0.5;  // s: a first pose after that is worth telling
 
 // Only what was played counts: an interrupted run has seen a part.
@@ -95,12 +96,17 @@ void PrintLatency(const report::Report& report) {
 // `poses`: those that were scored.
 std::string Title(const RunJob& job, const report::Report& report, const Trajectory& poses) {
   std::string name = std::filesystem::path(job.log).stem().string();
-  if (report.ate().empty()) return name + (report.not_scored().empty() ? "" : ": no score");
-  const report::Error& all = report.ate(0).all();
-  char text[160];
-  std::snprintf(
-      text, sizeof text, ": ATE %.2f cm, %.2f deg (map frame, no alignment), %.0f %% of the sequence",
-      all.position_rmse_cm(), all.orientation_rmse_deg(), 100 * TrackedShare(poses, report.sequence_s()));
+  if (poses.empty()) return name + ": no pose";
+  const double share = 100 * TrackedShare(poses, report.sequence_s());
+  std::string text;
+  if (report.ate().empty()) {
+    text = FormatText(": %sposes for %.0f %% of the sequence",
+                      report.not_scored().empty() ? "" : "no score, ", share);
+  } else {
+    const report::Error& all = report.ate(0).all();
+    text = FormatText(": ATE %.2f cm, %.2f deg (map frame, no alignment), %.0f %% of the sequence",
+                      all.position_rmse_cm(), all.orientation_rmse_deg(), share);
+  }
   const double first = ToSeconds(poses.front().t - static_cast<Utime>(report.begin_utime()));
   return name + text + (first > kLateStart ? FormatText(", first pose after %.1f s", first) : "");
 }
@@ -178,6 +184,13 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
     drawn =
         Draw([&] { pictures::PlotConsistency(job.out + "/consistency.png", text, consistency); }) && drawn;
     std::printf("%s\n", text.c_str());
+    if (consistency.pose.median > kAbsurdNees * consistency.pose.dof) {
+      std::printf(
+          "that is far more than what the poses know of themselves: are the truth's poses those of the IMU, "
+          "in "
+          "the map's frame? evit doctor --log %s --map %s --rig %s --truth %s says\n",
+          job.log.c_str(), job.map.c_str(), job.rig.c_str(), job.truth.c_str());
+    }
   }
   std::printf("%d keyframes (%.0f Hz), %.1f s in %.1f s: real-time factor %.2f; %.1f ms CPU per keyframe\n",
               report.keyframes(), report.keyframe_rate_hz(), report.sequence_s(), report.wall_s(),
