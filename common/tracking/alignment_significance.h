@@ -31,8 +31,8 @@ constexpr double kFollowSignificance = 4;
 /// frames at the right pose had 4.8 to 11.6, half of them over 7.4; the best of searches 80 cm and 25 degrees
 /// away from it 3.2, one in 25 over 5.
 constexpr double kStartSignificance = 5;
-/// The mean of several frames in a row before a start counts as found, and for a second after it. On 15
-/// starts of five real and two simulated sequences at the right pose: 6.3 and more.
+/// The mean of several frames in a row before a start counts as found. On 15 starts of five real and two
+/// simulated sequences at the right pose: 6.3 and more. (For a second after it: kFollowSignificance.)
 constexpr double kFoundSignificance = 5.5;
 /// Of one pose over another (SignificanceOver) before the first is preferred: chance reaches it once in 20.
 constexpr double kPreferredSignificance = 2;

@@ -8,8 +8,8 @@
 namespace evit {
 
 /// The IMU term between two keyframes i and j (paper Eq. (4)), whitened. Rows: alpha, beta, gamma, gyro bias,
-/// accel bias. The rotation row is Log(gamma^T R_i^T R_j): the paper's twice the vector part of a quaternion
-/// equals it to second order, and this one stays right for large errors too.
+/// accel bias. The rotation row is Log(gamma^T R_i^T R_j). The paper's, twice the vector part of Q_i^-1 Q_j
+/// gamma^-1, is the same vector turned by gamma, for small errors; this one stays right for large ones too.
 class ImuTerm {
  public:
   /// `pre` must outlive this. `noise_factor` multiplies the calibrated densities the covariance was made

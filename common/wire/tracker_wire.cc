@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/tracking/feedback.h"
 #include "common/wire/geometry_wire.h"
 #include "common/wire/imu_wire.h"
 
@@ -51,11 +52,12 @@ tracker_mode_t ToTrackerMode(const TrackerOutput& output, Utime t, std::int64_t 
   tracker_mode_t m{};
   m.utime = t;
   m.keyframe_seq = keyframe_seq;
-  m.mode = static_cast<std::int8_t>(output.mode);
   m.reason = output.reason;
-  m.image_speed = output.image_speed;
-  m.useful_interval_us = output.useful_interval;
-  m.keyframe_stride = 1;
+  const TrackerFeedback feedback = FeedbackOf(output);
+  m.mode = static_cast<std::int8_t>(feedback.mode);
+  m.image_speed = feedback.image_speed;
+  m.useful_interval_us = feedback.useful_interval;
+  m.keyframe_stride = feedback.keyframe_stride;
   return m;
 }
 

@@ -8,6 +8,7 @@
 #include "common/localization/place_index_file.h"
 #include "common/map/denoise.h"
 #include "common/map/map_file.h"
+#include "common/tracking/feedback.h"
 #include "tools/terminal/progress_bar.h"
 
 namespace evit::locate {
@@ -113,8 +114,7 @@ LocatorResult RunLocator(const RecordedStreams& streams, const PreparedMap& map,
     for (; sample != streams.imu().end() && sample->t <= t + kPiece; ++sample) builder.AddImu(*sample);
     while (auto keyframe = builder.Next()) {
       const TrackerOutput output = session.Process(InputOf(&*keyframe), &result);
-      builder.SetFeedbackFor(keyframe->seq,
-                             {static_cast<TrackerFeedback::Mode>(output.mode), output.image_speed, 1});
+      builder.SetFeedbackFor(keyframe->seq, FeedbackOf(output));
       const bool tracking = output.mode == TrackerMode::kTracking;
       if (result.found) {
         result.held_s = ToSeconds(keyframe->utime - result.t);
