@@ -67,15 +67,18 @@ std::vector<Figure> DrawFigures(const std::string& folder, const PaperPlan& plan
     }
   };
   draw("trajectories.png",
-       "Position and rotation of every method against truth over time; a curve ends, with a dot, where its "
+       "As the paper's Fig. 4: position and rotation of every method against truth over time; a curve ends, "
+       "with a dot, where its "
        "method was lost",
        [&](const std::string& path) { Trajectories(path, plan); });
   draw("motion_models.png",
-       "Initial projection of the map on the time surface from where each motion model expects the camera, "
+       "As the paper's Fig. 5: initial projection of the map on the time surface from where each motion "
+       "model expects the camera, "
        "at an instant of jerky motion, and where the window then found it",
        [&](const std::string& path) { OfKeyframes(path, plan, DrawMotionModels); });
   draw("window.png",
-       "A window of keyframes: fields of view on the map from above, the cameras at a larger scale with the "
+       "As the paper's Fig. 1: a window of keyframes: fields of view on the map from above, the cameras at a "
+       "larger scale with the "
        "IMU between them, and each time surface with the map on it",
        [&](const std::string& path) { OfKeyframes(path, plan, DrawWindow); });
   return figures;
