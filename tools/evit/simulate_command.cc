@@ -5,18 +5,29 @@
 #include <string>
 
 #include "common/config/rig_file.h"
+#include "common/geometry/degrees.h"
+#include "common/geometry/se3.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/data_file.h"
 #include "tools/evit/simulate_options.h"
+#include "tools/simulation/load_motion.h"
 #include "tools/simulation/simulator.h"
 #include "tools/terminal/progress_bar.h"
 
 namespace evit::commands {
 namespace {
 
+// A file's poses are not those of truth.tum: the path is put into the room.
+void PrintPlace(const SE3& T_map_source) {
+  const Eigen::Vector3d turn = LogSO3(T_map_source.q);
+  std::printf("path turned by %.1f deg about z, then moved by (%.2f, %.2f, %.2f) m, to fit the room\n",
+              kDegreesPerRadian * turn.z(), T_map_source.p.x(), T_map_source.p.y(), T_map_source.p.z());
+}
+
 void PrintSummary(const simulation::SimulationSettings& settings, const simulation::SimulationSummary& s) {
   std::printf("%s: %.2f s; %s; spline fits to %.2f mm, %.3f deg\n", s.name.c_str(), s.duration_s,
               s.motion.note.c_str(), 1e3 * s.motion.fit_rms_m, s.motion.fit_rms_deg);
+  if (!simulation::IsBuiltin(settings.trajectory)) PrintPlace(s.motion.T_map_source);
   const simulation::MotionSpeed& v = s.motion_speed;
   std::printf("camera %.2f m/s and %.2f rad/s mean, %.2f and %.2f at the 99th percentile\n", v.mean,
               v.turn_mean, v.p99, v.turn_p99);

@@ -103,12 +103,14 @@ void Shake(const MotionSettings& settings, Motion* motion) {
 
 }  // namespace
 
+bool IsBuiltin(const MotionSettings& settings) { return settings.source.rfind(kBuiltin, 0) == 0; }
+
 Motion LoadMotion(const MotionSettings& settings, const Rig& rig) {
   if (!(settings.play_speed >= 0.1 && settings.play_speed <= 20))
     throw std::runtime_error("play speed must be 0.1 to 20");
   Motion motion;
-  Trajectory poses = settings.source.rfind(kBuiltin, 0) == 0 ? MakeBuiltin(settings, rig, &motion)
-                                                             : ReadRecorded(settings, rig, &motion);
+  Trajectory poses =
+      IsBuiltin(settings) ? MakeBuiltin(settings, rig, &motion) : ReadRecorded(settings, rig, &motion);
   if (settings.play_speed != 1) PlayFaster(settings.play_speed, &poses, &motion);
   CarryAway(settings.carry, motion.begin, &poses);
   motion.spline = PoseSpline::Fit(poses, settings.knot_ms * 1e-3);

@@ -131,6 +131,23 @@ TEST(BuiltinMotion, DeskLooksDownAtTheDesk) {
   }
 }
 
+TEST(PlaceInRoom, SaysHowItMovedThePath) {
+  const Rig rig = TestRig();
+  const Scene scene = MakeRoom(1);
+  for (const char* name : {"handheld", "desk_normal"}) {
+    const Motion original = Builtin(name, 3, 1);
+    Motion placed = original;
+    // As of a file in another frame.
+    placed.spline = placed.spline.Moved({ExpSO3(Eigen::Vector3d(0, 0, 1)), Eigen::Vector3d(7, -3, 1)});
+    const SE3 before = placed.spline.Pose(placed.begin);
+    PlaceInRoom(rig, scene, &placed);
+    const SE3 expected = placed.T_map_source * before, after = placed.spline.Pose(placed.begin);
+    EXPECT_LT((expected.p - after.p).norm(), 1e-9) << name;
+    EXPECT_LT(AngularDistance(expected.q, after.q), 1e-9) << name;
+    EXPECT_LT(LogSO3(placed.T_map_source.q).head<2>().norm(), 1e-9) << name << ": z stays up";
+  }
+}
+
 TEST(BuiltinMotion, RotationHardlyMoves) {
   for (std::uint64_t variant = 1; variant <= 5; ++variant) {
     const Motion motion = Builtin("rotation", 6, variant);

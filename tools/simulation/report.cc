@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/geometry/so3.h"
+
 namespace evit::simulation {
 namespace {
 
@@ -87,6 +89,8 @@ void WriteReport(const std::string& path, const SimulationSettings& settings, co
   json.Number("carry_dx", carry.dx).Number("carry_dy", carry.dy).Number("carry_yaw", carry.yaw);
   json.Number("speed_mean_m_s", s.motion_speed.mean).Number("speed_p99_m_s", s.motion_speed.p99);
   json.Number("rate_mean_rad_s", s.motion_speed.turn_mean).Number("rate_p99_rad_s", s.motion_speed.turn_p99);
+  json.Vector("moved_m", s.motion.T_map_source.p)
+      .Number("turned_about_z_rad", LogSO3(s.motion.T_map_source.q).z());
   json.Number("fit_rms_m", s.motion.fit_rms_m).Number("fit_rms_deg", s.motion.fit_rms_deg).Close();
   json.Open("sensor").Number("threshold", settings.sensor.threshold);
   json.Number("threshold_spread", settings.sensor.threshold_spread);
