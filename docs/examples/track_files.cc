@@ -6,6 +6,7 @@
 //
 // The rig is that of logs/ in the sources: put your own in. CMakeLists.txt beside this file builds it.
 // Exit code 2: it was not tracking at the end.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -83,6 +84,8 @@ int Track(char** arguments) {
   TrackerOptions tracking;
   tracking.lag_px = drawing.surface.lag_px;  // these two must agree
   tracking.min_events = drawing.keyframes.min_events;
+  // As EVIT's services do: an image narrower than 640 pixels has room for fewer points.
+  tracking.points.per_keyframe = tracking.points.per_keyframe * std::min(640, rig.camera.width) / 640;
   KeyframeBuilder builder(rig, drawing, /*lossless=*/true);
   const auto tracker = MakeTracker(rig, tracking, start);
   builder.AddEvents(events, events.t.back());
