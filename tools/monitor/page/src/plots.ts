@@ -50,7 +50,7 @@ const PLANS: Plan[] = [
       { label: "latency", color: GREEN, dash: [2, 2], of: (s) => (s.latencyMs < 0 ? null : s.latencyMs) },
     ],
   },
-  { title: "Near events", unit: "% of points", digits: 0, curves: one((s) => (s.near == null ? null : 100 * s.near)) },
+  { title: "Near events", unit: "%", digits: 0, curves: one((s) => (s.near == null ? null : 100 * s.near)) },
 ];
 
 class Plot {

@@ -9,11 +9,10 @@ const CHANCE_STEP = 8; // pixels between those that tell what chance gives
 const AROUND = Array.from({ length: (2 * REACH + 1) ** 2 }, (_, i) => [(i % (2 * REACH + 1)) - REACH, Math.floor(i / (2 * REACH + 1)) - REACH] as const)
   .filter(([dx, dy]) => dx * dx + dy * dy <= REACH * REACH);
 
-// From blue (events near) to a pale tan (none): told apart by all eyes, and none of them an alarm.
+// Blue, paler for older events near, and tan without any: told apart by all eyes, and none of them an alarm.
 const RESIDUAL_COLORS = Array.from({ length: 256 }, (_, value) => {
   const mix = (a: number[], b: number[], s: number) => a.map((x, i) => Math.round(x + s * (b[i]! - x)));
-  const t = Math.min(1, value / EVENT);
-  const [r, g, b] = t < 0.5 ? mix([0, 114, 220], [120, 150, 190], 2 * t) : mix([120, 150, 190], [205, 170, 120], 2 * t - 1);
+  const [r, g, b] = value < EVENT ? mix([0, 90, 220], [110, 165, 225], value / EVENT) : [205, 170, 120];
   return (255 << 24) | (b! << 16) | (g! << 8) | r!;
 });
 
