@@ -36,22 +36,23 @@ function withoutFolders(detail: string): string {
   return detail.replace(/(^|\s)\/(?:[^\s:/]+\/)+/g, "$1");
 }
 
-const THINGS: Record<string, string> = { KEYFRAME: "keyframes", EVENTS: "event packets", IMU: "IMU batches", MAP_POINTS: "map answers", TRACKER_MODE: "tracker's answers" };
+const THINGS: Record<string, string> = { KEYFRAME: "keyframe", EVENTS: "event packet", IMU: "IMU batch", MAP_POINTS: "map answer", TRACKER_MODE: "tracker answer" };
 const FATES: Record<string, string> = {
   lost: "lost on the way",
-  dropped: "left out, as there was no time for them",
+  dropped: "left out for lack of time",
   invalid: "not valid",
   overrun: "overrun",
 };
+const several = (n: number, thing: string) => `${n.toLocaleString("en")} ${n === 1 ? thing : thing.endsWith("ch") ? `${thing}es` : `${thing}s`}`;
 
 // What did not reach it or was not used, in words.
 export function lossesOf(service: Service): string {
   const parts = Object.entries(service.counters).flatMap(([name, value]) => {
     if (value === 0) return [];
-    if (name === "bus.queue_drops") return [`${value.toLocaleString("en")} messages too many at once`];
+    if (name === "bus.queue_drops") return [`${several(value, "message")} too many at once`];
     const [, thing, fate] = /^(.+)\.(lost|invalid|dropped|overrun)$/.exec(name) ?? [];
     if (!thing || thing === "mode") return [];
-    return [`${value.toLocaleString("en")} ${THINGS[thing] ?? `of ${thing}`} ${FATES[fate!]}`];
+    return [`${several(value, THINGS[thing] ?? `${thing} message`)} ${FATES[fate!]}`];
   });
   return parts.join(", ");
 }

@@ -53,6 +53,6 @@ expect({ status: status([...stopped, replay("finished", "a.lcmlog: stopped")]) }
 expect({ status: status([...robot(), replay("waiting", "waiting for credit")]) }, "wait", "waiting", /log_replay: waiting for credit/);
 
 const losses = (counters) => lossesOf(service("window_optimizer", "running", { counters }));
-assert.equal(losses({ "KEYFRAME.dropped": 1452, "KEYFRAME.invalid": 1, "IMU.lost": 0, "mode.lost": 3 }), "1,452 keyframes left out, as there was no time for them, 1 keyframes not valid");
-assert.equal(losses({ "STREAM_END.lost": 2 }), "2 of STREAM_END lost on the way");
+assert.equal(losses({ "KEYFRAME.dropped": 1452, "KEYFRAME.invalid": 1, "IMU.lost": 0, "mode.lost": 3 }), "1,452 keyframes left out for lack of time, 1 keyframe not valid");
+assert.equal(losses({ "STREAM_END.lost": 2 }), "2 STREAM_END messages lost on the way");
 console.log("all states have their line");
