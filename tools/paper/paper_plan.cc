@@ -154,14 +154,15 @@ std::vector<PaperJob> JobsOf(const PaperPlan& plan) {
 
 PaperResults CollectResults(const PaperPlan& plan) {
   PaperResults results;
-  for (const Recording& r : plan.recordings) results.sources[r.sequence->name()] = r.source;
   std::map<std::pair<std::string, std::string>, bool> whole;
   for (const PlannedRun& run : plan.runs) {
     const Recording& recording = plan.recordings[run.recording];
     const auto key = std::pair(recording.sequence->name(), run.method.id());
     const bool done = IsDone(run.job);
     whole.emplace(key, true).first->second &= done;
-    if (done) results.runs[key].push_back(ScoreRun(run.job.folder, recording.truth));
+    if (!done) continue;
+    results.runs[key].push_back(ScoreRun(run.job.folder, recording.truth));
+    results.sources[key.first] = recording.source;
   }
   for (const auto& [key, all] : whole) {
     if (!all) results.runs.erase(key);

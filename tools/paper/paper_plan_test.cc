@@ -165,9 +165,11 @@ TEST_F(PlanTest, MissingFilesOfARecordedSequenceAreNamed) {
 
 TEST_F(PlanTest, IndexDescribesResultsAndTheirOrigin) {
   const PaperPlan plan = MakePlan(options_);
+  EXPECT_THAT(CollectResults(plan).sources, ::testing::IsEmpty()) << "nothing has run";
   PaperResults results;
   results.runs[{"desk_fast", "evit"}] = {MadeUpRun(1, 2, 3)};
   IndexFacts facts;
+  results.sources["desk_fast"] = "made up";
   facts.command = "evit paper --out x";
   facts.commit = "abc";
   facts.machine = DescribeMachine();
@@ -175,9 +177,10 @@ TEST_F(PlanTest, IndexDescribesResultsAndTheirOrigin) {
   const std::string text = IndexText(plan, results, {{"window.png", "a window"}, {"", "not drawn"}}, facts);
   for (const char* what :
        {"evit paper --out x", "commit: abc", "Table II.", "| desk_fast | EVIT | (dyn) | 1.00 |",
-        "figures/window.png", "run a: exit code 1", "motion_model PREVIOUS_POSE"})
+        "figures/window.png", "| desk_fast | made up |", "run a: exit code 1", "motion_model PREVIOUS_POSE"})
     EXPECT_THAT(text, HasSubstr(what));
   EXPECT_EQ(text.find("Table I."), std::string::npos);
+  EXPECT_EQ(text.find("| sofa_fast |"), std::string::npos) << "a sequence that has not run";
 }
 
 }  // namespace
