@@ -19,6 +19,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+constexpr std::size_t kPixels = 640UL * 480;
+
 // A monitor on a bus in memory, and clients on its port, all in one thread.
 class MonitorTest : public ::testing::Test {
  protected:
@@ -242,7 +244,7 @@ TEST_F(MonitorTest, AViewerThatReadsNothingDoesNotStopOthers) {
   keyframe.width = 640;
   keyframe.height = 480;
   keyframe.surface_size = 640 * 480;
-  keyframe.surface.assign(640 * 480, 200);
+  keyframe.surface.assign(kPixels, 200);
   int pictures = 0;
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_TRUE(Until([&] {
@@ -252,7 +254,7 @@ TEST_F(MonitorTest, AViewerThatReadsNothingDoesNotStopOthers) {
     }
     page->Read();
     for (auto frame = page->Frame(); frame; frame = page->Frame()) {
-      if (frame->size() < 640 * 480) continue;
+      if (frame->size() < kPixels) continue;
       ++pictures;
       page->SendText(R"({"order":"drawn"})");
     }
@@ -268,14 +270,14 @@ TEST_F(MonitorTest, APictureTakesFewLooks) {
   keyframe.width = 640;
   keyframe.height = 480;
   keyframe.surface_size = 640 * 480;
-  keyframe.surface.assign(640 * 480, 200);
+  keyframe.surface.assign(kPixels, 200);
   test::Publish(peer_.get(), channels_.keyframe, keyframe);
   int looks = 0;
   bool come = false;
   ASSERT_TRUE(Until([&] {
     ++looks;
     page->Read();
-    for (auto frame = page->Frame(); frame; frame = page->Frame()) come |= frame->size() > 640 * 480;
+    for (auto frame = page->Frame(); frame; frame = page->Frame()) come |= frame->size() > kPixels;
     return come;
   }));
   EXPECT_LT(looks, 40);  // not one for each 4 kB: between two of them the monitor may wait for the bus
