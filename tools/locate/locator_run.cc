@@ -43,7 +43,7 @@ class Session {
   }
 
   TrackerOutput Process(const KeyframeInput& keyframe, LocatorResult* result) {
-    const TrackerOutput output = tracker_.Process(keyframe);
+    TrackerOutput output = tracker_.Process(keyframe);
     AnswerPoints();
     while (const PlaceQuery* question = tracker_.PlaceQuestion()) {
       const auto begin = std::chrono::steady_clock::now();
