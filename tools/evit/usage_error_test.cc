@@ -43,7 +43,8 @@ TEST(UsageError, NamesAllThatIsMissing) {
 
 TEST(UsageError, NamesAllThatIsNotKnownAndTheNearestOption) {
   EXPECT_THAT(Said("track --lgo a --rig b c.pcd"),
-              AllOf(HasSubstr("not understood: --lgo (did you mean --log?), a, c.pcd"), HasSubstr("missing: --log\n")));
+              AllOf(HasSubstr("not understood: --lgo (did you mean --log?), a, c.pcd"),
+                    HasSubstr("missing: --log\n")));
   EXPECT_THAT(Said("track --log a --rig b --loudness"), HasSubstr("not understood: --loudness\n"));
   EXPECT_THAT(Said("track c.pcd"), HasSubstr("a file needs its option before it"));
 }
