@@ -28,7 +28,8 @@ PipelineOptions LoadOptions(const std::string& path);
 /// The same for a sensor of this size. What the file says nothing of follows a sensor wider than VGA: the
 /// same motion crosses more pixels there and causes more events along each edge, so keyframes.n_event and
 /// points.margin_px grow with the width. Smaller sensors keep those defaults (with fewer events a keyframe a
-/// DAVIS240 had the same errors, for more CPU), but have fewer points.per_keyframe, in proportion.
+/// DAVIS240 had the same errors, for more CPU), but have fewer points.per_keyframe, in
+/// proportion, half at least.
 PipelineOptions LoadOptionsFor(const Camera& camera, const std::string& path);
 
 }  // namespace evit

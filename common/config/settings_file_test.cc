@@ -203,7 +203,9 @@ TEST_F(SettingsFile, DefaultsFollowAWiderSensor) {
   EXPECT_DOUBLE_EQ(set.points.margin_px, 50);
   camera.width = 240, camera.height = 180;
   EXPECT_EQ(LoadOptionsFor(camera, "").keyframes.n_event, plain.keyframes.n_event);
-  EXPECT_EQ(LoadOptionsFor(camera, "").points.per_keyframe, plain.points.per_keyframe * 240 / 640);
+  EXPECT_EQ(LoadOptionsFor(camera, "").points.per_keyframe, plain.points.per_keyframe / 2);
+  camera.width = 480, camera.height = 360;
+  EXPECT_EQ(LoadOptionsFor(camera, "").points.per_keyframe, plain.points.per_keyframe * 3 / 4);
   EXPECT_EQ(LoadOptionsFor(camera, Write("b.textproto", "points { per_keyframe: 900 }")).points.per_keyframe,
             900);
 }

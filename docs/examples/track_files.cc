@@ -85,7 +85,7 @@ int Track(char** arguments) {
   tracking.lag_px = drawing.surface.lag_px;  // these two must agree
   tracking.min_events = drawing.keyframes.min_events;
   // As EVIT's services do: an image narrower than 640 pixels has room for fewer points.
-  tracking.points.per_keyframe = tracking.points.per_keyframe * std::min(640, rig.camera.width) / 640;
+  tracking.points.per_keyframe = tracking.points.per_keyframe * std::clamp(rig.camera.width, 320, 640) / 640;
   KeyframeBuilder builder(rig, drawing, /*lossless=*/true);
   const auto tracker = MakeTracker(rig, tracking, start);
   builder.AddEvents(events, events.t.back());
