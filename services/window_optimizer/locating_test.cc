@@ -49,7 +49,7 @@ class LocatingTest : public WindowOptimizerTest {
   }
   bool tracking() const { return !modes_.empty() && modes_.back().mode == tracker_mode_t::TRACKING; }
   void ExpectTheRightPlace() {
-    Play(160);
+    Play(320);
     ASSERT_TRUE(tracking()) << modes_.back().reason;
     ASSERT_FALSE(windows_.empty());
     for (const window_state_t& window : windows_) {
