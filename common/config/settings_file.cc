@@ -164,10 +164,11 @@ PipelineOptions LoadOptionsFor(const Camera& camera, const std::string& path) {
   if (loaded.set.count("keyframes.n_event") == 0)
     o.keyframes.n_event = static_cast<int>(std::lround(scale * o.keyframes.n_event));
   if (loaded.set.count("points.margin_px") == 0) o.points.margin_px *= scale;
-  // Edges are lines: a narrower image has room for fewer points, and more only repeat them. Half at least: with
-  // fewer, single keyframes of a DAVIS240 that EVT tracks by events alone lie several centimetres off.
+  // Edges are lines: a narrower image has room for fewer points, and more only repeat them. Half at least:
+  // with fewer, single keyframes of a DAVIS240 that EVT tracks by events alone lie several centimetres off.
   if (loaded.set.count("points.per_keyframe") == 0)
-    o.points.per_keyframe = static_cast<int>(std::lround(std::clamp(relative, 0.5, 1.0) * o.points.per_keyframe));
+    o.points.per_keyframe =
+        static_cast<int>(std::lround(std::clamp(relative, 0.5, 1.0) * o.points.per_keyframe));
   return o;
 }
 
