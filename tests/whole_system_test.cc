@@ -360,7 +360,7 @@ TEST_F(WholeSystemTest, BadInputIsNamedAndLeavesNothingBehind) {
       {with("out", "/proc/nowhere"), "/proc/nowhere"},
       {kEvit + " import vector " + kLogs + " --sequence nothing --out " + Path("x.lcmlog"),
        "sequences found there"},
-      {kEvit + " run --log x", "--rig is required"},
+      {kEvit + " run --log x", "missing: --rig, --out"},
   };
   for (const auto& c : cases) {
     const Result result = Shell(c.command);
