@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -38,17 +39,33 @@ class PipelineFinder {
  public:
   explicit PipelineFinder(pid_t only) : only_(only) {}
 
-  /// The newest one; nothing between two looks.
+  /// The newest one that can be watched; nothing between two looks.
   std::optional<run::RunningPipeline> Look() {
     const auto now = std::chrono::steady_clock::now();
     if (now - looked_ < kLookPeriod) return std::nullopt;
     looked_ = now;
-    const auto found = run::FindRunning();
-    return found && only_ != 0 && found->pid != only_ ? std::nullopt : found;
+    for (const run::RunningPipeline& found : run::FindAllRunning()) {
+      if ((only_ == 0 || found.pid == only_) && IsOurs(found)) return found;
+    }
+    return std::nullopt;
   }
 
  private:
+  bool IsOurs(const run::RunningPipeline& found) {
+    const auto [at, is_new] = ours_.try_emplace(found.pid, false);
+    if (!is_new) return at->second;
+    at->second = run::CanJoinNetworkOf(found);
+    if (!at->second)
+      std::fprintf(
+          stderr,
+          "evit monitor: the pipeline of process %d belongs to somebody else, or runs in a container: "
+          "not shown\n",
+          static_cast<int>(found.pid));
+    return at->second;
+  }
+
   pid_t only_;
+  std::map<pid_t, bool> ours_;
   std::chrono::steady_clock::time_point looked_;
 };
 

@@ -8,6 +8,7 @@
 #include <sched.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -134,9 +135,26 @@ void JoinNetworkOf(const RunningPipeline& pipeline) {
     if (fd >= 0) close(fd);
     if (result != 0) {
       throw std::runtime_error("cannot join the network of process " + std::to_string(pipeline.pid) + " (" +
-                               why + "): run this as the same user");
+                               why + "): it belongs to somebody else, or runs in a container");
     }
   }
+}
+
+bool CanJoinNetworkOf(const RunningPipeline& pipeline) {
+  const pid_t child = fork();
+  if (child < 0) return false;
+  if (child == 0) {
+    try {
+      JoinNetworkOf(pipeline);
+      _exit(0);
+    } catch (const std::exception&) {
+      _exit(1);
+    }
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 }  // namespace evit::run

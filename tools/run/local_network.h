@@ -21,4 +21,8 @@ bool IsLocalBus(const std::string& lcm_url);
 /// made. Throws std::runtime_error where the kernel forbids it.
 void JoinNetworkOf(const RunningPipeline& pipeline);
 
+/// Whether this process might: not where the pipeline belongs to somebody else, or runs in a container. Tried
+/// by a child, so that nothing changes here.
+bool CanJoinNetworkOf(const RunningPipeline& pipeline);
+
 }  // namespace evit::run

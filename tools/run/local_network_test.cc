@@ -87,9 +87,13 @@ TEST(LocalNetwork, OthersCanJoinIt) {
               return Namespace() == theirs.string() ? 0 : 1;
             }),
             0);
+  const std::string mine = Namespace();
+  EXPECT_TRUE(CanJoinNetworkOf({owner, ""}));
+  EXPECT_EQ(Namespace(), mine);
   close(end[1]);
   waitpid(owner, nullptr, 0);
   EXPECT_THROW(JoinNetworkOf({owner, ""}), std::runtime_error);
+  EXPECT_FALSE(CanJoinNetworkOf({owner, ""}));
 }
 
 TEST(LocalNetwork, ChildrenInheritIt) {
