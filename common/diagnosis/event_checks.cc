@@ -11,6 +11,11 @@
 namespace evit::diagnosis {
 namespace {
 
+// Place of a pixel in a row-major image.
+std::size_t At(int x, int y, int width) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+}
+
 Finding Rate(const EventCensus& e) {
   const double seconds = std::max(e.seconds(), 1e-3);
   const double rate = static_cast<double>(e.count()) / seconds;
@@ -104,7 +109,7 @@ Finding Size(const EventCensus& e) {
   std::vector<std::int64_t> columns(static_cast<std::size_t>(w), 0), rows(static_cast<std::size_t>(h), 0);
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x) {
-      const std::uint32_t n = e.by_pixel()[static_cast<std::size_t>(y * w + x)];
+      const std::uint32_t n = e.by_pixel()[At(x, y, w)];
       columns[static_cast<std::size_t>(x)] += n, rows[static_cast<std::size_t>(y)] += n, inside += n;
     }
   }
@@ -162,12 +167,12 @@ Finding DeadPixels(const EventCensus& e) {
       std::int64_t around = 0, busy = 0;
       for (int v = -2; v <= 2; ++v)
         for (int u = -2; u <= 2; ++u) {
-          const std::uint32_t n = e.by_pixel()[static_cast<std::size_t>((y + v) * w + x + u)];
+          const std::uint32_t n = e.by_pixel()[At(x + u, y + v, w)];
           if (u != 0 || v != 0) around += std::min(n, kMost), busy += n > 0 ? 1 : 0;
         }
       if (busy < kFewestBusy || static_cast<double>(around) < kBusy * static_cast<double>(busy)) continue;
       ++judged;
-      if (e.by_pixel()[static_cast<std::size_t>(y * w + x)] == 0) ++dead;
+      if (e.by_pixel()[At(x, y, w)] == 0) ++dead;
     }
   }
   const double share = static_cast<double>(dead) / static_cast<double>(std::max<std::int64_t>(1, judged));

@@ -136,6 +136,7 @@ Finding AccelUnit(const std::vector<ImuSample>& samples, double gravity) {
 
 Finding GyroUnit(const std::vector<ImuSample>& samples) {
   std::vector<double> norms;
+  norms.reserve(samples.size());
   for (const ImuSample& s : samples) norms.push_back(s.gyro.norm());
   const double median = Median(norms);
   const GyroFit fit = FitGyroToGravity(samples);

@@ -121,9 +121,9 @@ TEST(TrajectoryError, AgreesWithEvosDefinitionsToTheDigitsPrinted) {
     const Eigen::Vector3d p(std::sin(s), std::cos(1.3 * s), 0.2 * s),
         e = 0.01 * Eigen::Vector3d(std::sin(7 * s), std::cos(5 * s), std::sin(3 * s)),
         d = 0.01 * Eigen::Vector3d(std::cos(9 * s), std::sin(11 * s), std::cos(4 * s));
-    truth.push_back({20'000 * k, {q, p}});
+    truth.push_back({Utime{20'000} * k, {q, p}});
     estimate.push_back(
-        {20'000 * k, {turn * q * ExpSO3(e), 0.97 * (turn * (p + d)) + Eigen::Vector3d(3, 4, 5)}});
+        {Utime{20'000} * k, {turn * q * ExpSO3(e), 0.97 * (turn * (p + d)) + Eigen::Vector3d(3, 4, 5)}});
   }
   const auto expect = [](const TrajectoryError& error, const std::array<double, 4>& expected) {
     EXPECT_NEAR(error.position_rmse, expected[0], 1e-10);

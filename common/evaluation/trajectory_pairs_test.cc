@@ -41,7 +41,7 @@ TEST(TrajectoryPairs, SlowTruthIsScoredAtItsOwnStamps) {
   EXPECT_THAT(UnscoredText(EveryNth(Curve(0), 10), Curve(0)), HasSubstr("truth only every 0.25 s"));
   // The estimate's stamps need not meet the truth's.
   Trajectory shifted;
-  for (StampedPose s : EveryNth(Curve(0), 10)) shifted.push_back({s.t + 7'000, s.pose});
+  for (const StampedPose& s : EveryNth(Curve(0), 10)) shifted.push_back({s.t + 7'000, s.pose});
   EXPECT_EQ(AbsoluteError(shifted, Curve(0), Alignment::kNone).n_pairs, 12);
 }
 
