@@ -12,7 +12,7 @@
 namespace evit::monitor {
 
 /// Where the body was at every time of a recording that has been tracked, so that a replay which is sent to
-/// such a time goes on from there. Ten poses a second, of the newest pass over that time; of a recording
+/// such a time continues from there. Ten poses a second, of the newest pass over that time; of a recording
 /// longer than an hour the latest times are not kept.
 class KnownPoses : public PipelineListener {
  public:

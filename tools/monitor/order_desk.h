@@ -17,7 +17,7 @@
 namespace evit::monitor {
 
 /// Gives viewers' orders to the pipeline: REPLAY_CONTROL, POSE_HINT and, for processes that a deputy has
-/// named, PM_ORDERS. A replay that is sent to a time when the body was tracked goes on from where it was.
+/// named, PM_ORDERS. A replay that is sent to a time when the body was tracked continues from where it was.
 class OrderDesk : public PipelineListener {
  public:
   /// `bus`, `watch` and `sheriff` must outlive this. Becomes a listener of `watch`.

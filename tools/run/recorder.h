@@ -45,7 +45,7 @@ class Recorder {
   std::int64_t n_keyframes() const { return earlier_keyframes_ + mode_.keyframe_seq + 1; }
   const std::map<std::string, service_status_t>& statuses() const { return statuses_; }
   double progress() const;
-  /// log_replay says that it waits for an order to go on.
+  /// log_replay says that it waits for an order to continue.
   bool paused() const;
 
   /// Mean milliseconds of the optimiser, over all keyframes with a pose.
