@@ -139,7 +139,7 @@ export class HintTool {
   }
 
   private takeLast(): void {
-    const T = this.view.lastCamera();
+    const T = this.view.body.lastCamera();
     if (T) return this.fill(T);
     const center = this.view.cloud.box.isEmpty()
       ? new THREE.Vector3()

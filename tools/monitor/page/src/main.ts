@@ -2,18 +2,20 @@ import "uplot/dist/uPlot.min.css";
 import "./style.css";
 import { Candidates } from "./candidates";
 import { Connection, type Handler } from "./connection";
-import { color, element, isDark, onThemeChange, setMarked, setText } from "./dom";
+import { element, onThemeChange, setMarked, setText } from "./dom";
 import { showEmptyMap } from "./empty_map";
 import { TRACKING, type History, type MapPiece, type Picture, type Pose, type WindowState } from "./frames";
 import { headline, SIGNS } from "./headline";
 import { HintTool } from "./hint_tool";
 import { Latencies } from "./latency";
-import { MapView, type View } from "./map_view";
+import { showLegend } from "./legend";
+import { MapView } from "./map_view";
 import { Plots } from "./plots";
 import { ReplayBar } from "./replay_bar";
 import { ServicesView } from "./services_view";
 import type { Answer, Drawn, Mode, Places, Status } from "./status";
 import { SurfaceView } from "./surface_view";
+import type { View } from "./viewpoint";
 
 const ANSWER_MS = 6000; // for so long an answer stays
 
@@ -79,7 +81,7 @@ class Page implements Handler {
   }
 
   pose(pose: Pose): void {
-    const first = !this.mapView.hasPose;
+    const first = !this.mapView.body.hasPose;
     this.mapView.setPose(pose);
     this.lastPose = pose;
     this.showReadout();
@@ -104,7 +106,7 @@ class Page implements Handler {
   history(history: History): void {
     for (const pose of history.truths) this.mapView.addTruthPast(pose);
     for (const state of history.windows) {
-      this.mapView.addPast(state);
+      this.mapView.body.addPast(state);
       this.plots.add(state);
     }
     const last = history.windows.at(-1);
@@ -233,22 +235,7 @@ class Page implements Handler {
   }
 
   private showLegend(): void {
-    const { mapView } = this;
-    const step = mapView.gridStep;
-    const [low, high] = mapView.cloud.heights.toArray().map((z) => (Math.round(10 * z) / 10 || 0).toFixed(1).replace("-", "−"));
-    const line = (name: string, text: string) => `<span><i style="background:var(--${name})"></i>${text}</span>`;
-    const parts = [
-      mapView.hasPose && (mapView.isKnown ? line("accent", "estimate") : line("soft", "where it was last")),
-      this.hint.waits && line("bad", "pose sent"),
-      mapView.hasTruth && line("truth", "truth"),
-      this.candidates.any && line("place", "where it may be"),
-      step > 0 && `<span><i class="ramp" style="background:linear-gradient(90deg, ${mapView.cloud.setTheme(isDark())})"></i>height ${low} to ${high} m</span>`,
-      step > 0 && line("grid", `grid ${step} m`),
-    ];
-    const html = parts.filter(Boolean).join("");
-    const legend = element("map-legend");
-    if (legend.innerHTML !== html) legend.innerHTML = html;
-    legend.style.color = color("soft");
+    showLegend(this.mapView, { poseSent: this.hint.waits, candidates: this.candidates.any });
   }
 
   private showAbout(): void {
