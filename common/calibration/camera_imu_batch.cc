@@ -20,7 +20,7 @@
 namespace evit {
 namespace {
 
-constexpr double kStill = 20e-6;  // s: an offset that moves less than this stands still
+constexpr Utime kStill = 20;  // us: an offset that moves less than this stands still
 constexpr int kMoves = 6;
 constexpr double kCauchy = 4;  // whitened length of six residuals from which a pose counts less
 
@@ -75,58 +75,87 @@ void CameraImuBatch::StartStates() {
 
 bool CameraImuBatch::Solve(const CameraImuPrior& prior, const PoseNoise& noise, bool robust) {
   for (int move = 0; move < kMoves; ++move) {
-    double late = 0;
-    if (!SolveOnce(prior, noise, robust, &late)) return false;
-    if (std::abs(late) < kStill) return true;
+    Utime moved = 0;
+    if (!SolveOnce(prior, noise, robust, &moved)) return false;
+    if (std::abs(moved) < kStill) return true;
   }
   return true;
 }
 
-bool CameraImuBatch::SolveOnce(const CameraImuPrior& prior, const PoseNoise& noise, bool robust,
-                               double* late) {
-  if (!imu_->Covers(camera_.front().t + values_.offset) || !imu_->Covers(camera_.back().t + values_.offset))
-    return false;  // the offset ran away
-  const std::size_t n = states_.size(), middle = n / 2;
-  std::vector<Preintegration> terms(n);
-  std::array<double, 7> extrinsic = ToBlocks({values_.T_body_camera, Eigen::Vector3d::Zero(), {}}).pose;
-  Eigen::Vector2d tilt = values_.tilt;
-  const std::unique_ptr<ceres::LossFunction> loss(robust ? new ceres::CauchyLoss(kCauchy) : nullptr);
-  ceres::Problem::Options ownership;
-  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem problem(ownership);
+void CameraImuBatch::AddMeasurements(const PoseNoise& noise, ceres::LossFunction* loss, Unknowns* unknowns,
+                                     std::vector<Preintegration>* terms, ceres::Problem* problem) {
   const double w_p = noise.position * std::sqrt(noise.position_correlation),
                w_r = noise.rotation * std::sqrt(noise.rotation_correlation);
   auto* manifold = new PoseManifold;
-  problem.AddParameterBlock(extrinsic.data(), 7, manifold);
-  for (std::size_t k = 0; k < n; ++k) {
+  problem->AddParameterBlock(unknowns->extrinsic.data(), 7, manifold);
+  terms->resize(states_.size());
+  for (std::size_t k = 0; k < states_.size(); ++k) {
     StateBlocks& b = states_[k];
-    problem.AddParameterBlock(b.pose.data(), 7, manifold);
+    problem->AddParameterBlock(b.pose.data(), 7, manifold);
     const Utime t = camera_[k].t + values_.offset;
-    problem.AddResidualBlock(new CameraPoseFactor(camera_[k].pose, imu_->At(t).gyro, w_p, w_r), loss.get(),
-                             b.pose.data(), b.motion.data(), extrinsic.data(), tilt.data(), late);
+    problem->AddResidualBlock(new CameraPoseFactor(camera_[k].pose, imu_->At(t).gyro, w_p, w_r), loss,
+                              b.pose.data(), b.motion.data(), unknowns->extrinsic.data(),
+                              unknowns->tilt.data(), &unknowns->late);
     if (k == 0) continue;
     StateBlocks& a = states_[k - 1];
-    terms[k] = Preintegration(imu_->Between(camera_[k - 1].t + values_.offset, t), FromBlocks(a).bias,
-                              rig_.imu_noise);
-    problem.AddResidualBlock(new ImuFactor(ImuTerm(&terms[k], rig_.gravity, noise_factor_)), nullptr,
-                             a.pose.data(), a.motion.data(), b.pose.data(), b.motion.data());
+    (*terms)[k] = Preintegration(imu_->Between(camera_[k - 1].t + values_.offset, t), FromBlocks(a).bias,
+                                 rig_.imu_noise);
+    problem->AddResidualBlock(new ImuFactor(ImuTerm(&(*terms)[k], rig_.gravity, noise_factor_)), nullptr,
+                              a.pose.data(), a.motion.data(), b.pose.data(), b.motion.data());
   }
+}
+
+void CameraImuBatch::AddPriors(const CameraImuPrior& prior, Unknowns* unknowns, ceres::Problem* problem) {
   StatePrior bias;
   bias.mean = FromBlocks(states_[0]);
   bias.mean.bias = {};
   bias.information.diagonal().segment<3>(9).setConstant(std::pow(prior.gyro_bias_sigma, -2));
   bias.information.diagonal().segment<3>(12).setConstant(std::pow(prior.accel_bias_sigma, -2));
-  problem.AddResidualBlock(new PriorFactor(bias), nullptr, states_[0].pose.data(), states_[0].motion.data());
-  problem.AddResidualBlock(
+  problem->AddResidualBlock(new PriorFactor(bias), nullptr, states_[0].pose.data(), states_[0].motion.data());
+  problem->AddResidualBlock(
       new ExtrinsicPriorFactor(prior.T_body_camera, prior.position_information, prior.rotation_information),
-      nullptr, extrinsic.data());
+      nullptr, unknowns->extrinsic.data());
   const ceres::Matrix tilt_weight = ceres::Matrix::Identity(2, 2) / prior.tilt_sigma,
                       offset_weight = ceres::Matrix::Identity(1, 1) / prior.offset_sigma;
-  problem.AddResidualBlock(new ceres::NormalPrior(tilt_weight, ceres::Vector::Zero(2)), nullptr, tilt.data());
-  problem.AddResidualBlock(
+  problem->AddResidualBlock(new ceres::NormalPrior(tilt_weight, ceres::Vector::Zero(2)), nullptr,
+                            unknowns->tilt.data());
+  problem->AddResidualBlock(
       new ceres::NormalPrior(offset_weight,
                              ceres::Vector::Constant(1, ToSeconds(prior.offset - values_.offset))),
-      nullptr, late);
+      nullptr, &unknowns->late);
+}
+
+bool CameraImuBatch::ComputeCovariance(Unknowns* unknowns, ceres::Problem* problem) {
+  // The order of LastCovariance; the middle state's velocity goes before its biases, which are asked for.
+  const std::size_t middle = states_.size() / 2;
+  std::vector<double*> blocks;
+  for (std::size_t k = 0; k < states_.size(); ++k) {
+    blocks.push_back(states_[k].pose.data());
+    if (k != middle) blocks.push_back(states_[k].motion.data());
+  }
+  blocks.insert(blocks.end(), {states_[middle].motion.data(), unknowns->extrinsic.data(), &unknowns->late,
+                               unknowns->tilt.data()});
+  CameraImuCovariance last;  // biases 6, extrinsic 6, offset 1, tilt 2
+  if (!LastCovariance(problem, blocks, &last)) return false;
+  constexpr int kFrom[15] = {6, 7, 8, 9, 10, 11, 12, 13, 14, 0, 1, 2, 3, 4, 5};
+  for (int r = 0; r < 15; ++r) {
+    for (int c = 0; c < 15; ++c) covariance_(r, c) = last(kFrom[r], kFrom[c]);
+  }
+  return true;
+}
+
+bool CameraImuBatch::SolveOnce(const CameraImuPrior& prior, const PoseNoise& noise, bool robust,
+                               Utime* moved) {
+  if (!imu_->Covers(camera_.front().t + values_.offset) || !imu_->Covers(camera_.back().t + values_.offset))
+    return false;  // the offset ran away
+  Unknowns unknowns{ToBlocks({values_.T_body_camera, Eigen::Vector3d::Zero(), {}}).pose, values_.tilt, 0};
+  std::vector<Preintegration> terms;
+  const std::unique_ptr<ceres::LossFunction> loss(robust ? new ceres::CauchyLoss(kCauchy) : nullptr);
+  ceres::Problem::Options ownership;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  AddMeasurements(noise, loss.get(), &unknowns, &terms, &problem);
+  AddPriors(prior, &unknowns, &problem);
 
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
@@ -135,28 +164,14 @@ bool CameraImuBatch::SolveOnce(const CameraImuPrior& prior, const PoseNoise& noi
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable()) return false;
+  if (!summary.IsSolutionUsable() || !ComputeCovariance(&unknowns, &problem)) return false;
 
-  // The order of CameraImuCovariance; the middle state's velocity goes before its biases, which are asked
-  // for.
-  std::vector<double*> blocks;
-  for (std::size_t k = 0; k < n; ++k) {
-    blocks.push_back(states_[k].pose.data());
-    if (k != middle) blocks.push_back(states_[k].motion.data());
-  }
-  blocks.insert(blocks.end(), {states_[middle].motion.data(), extrinsic.data(), late, tilt.data()});
-  Eigen::Matrix<double, 15, 15> last;  // biases 6, extrinsic 6, offset 1, tilt 2
-  if (!LastCovariance(&problem, blocks, &last)) return false;
-  const int from[15] = {6, 7, 8, 9, 10, 11, 12, 13, 14, 0, 1, 2, 3, 4, 5};
-  for (int r = 0; r < 15; ++r) {
-    for (int c = 0; c < 15; ++c) covariance_(r, c) = last(from[r], from[c]);
-  }
-
-  values_.T_body_camera = PoseFromBlock(extrinsic.data());
+  values_.T_body_camera = PoseFromBlock(unknowns.extrinsic.data());
   values_.T_body_camera.q.normalize();
-  values_.offset += std::llround(*late * 1e6);
-  values_.tilt = tilt;
-  values_.bias = FromBlocks(states_[middle]).bias;
+  *moved = std::llround(unknowns.late * 1e6);
+  values_.offset += *moved;
+  values_.tilt = unknowns.tilt;
+  values_.bias = FromBlocks(states_[states_.size() / 2]).bias;
   return true;
 }
 

@@ -1,13 +1,20 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "common/calibration/imu_track.h"
 #include "common/calibration/pose_noise.h"
 #include "common/evaluation/trajectory.h"
 #include "common/geometry/rig.h"
+#include "common/imu/preintegration.h"
 #include "common/tracking/state.h"
+
+namespace ceres {
+class LossFunction;
+class Problem;
+}  // namespace ceres
 
 namespace evit {
 
@@ -59,7 +66,19 @@ class CameraImuBatch {
   std::size_t size() const { return camera_.size(); }
 
  private:
-  bool SolveOnce(const CameraImuPrior& prior, const PoseNoise& noise, bool robust, double* late);
+  // Of a solution, beside the states.
+  struct Unknowns {
+    std::array<double, 7> extrinsic;  // T_body_camera
+    Eigen::Vector2d tilt;
+    double late;  // s to add to the offset
+  };
+  // `moved`: the offset, us.
+  bool SolveOnce(const CameraImuPrior& prior, const PoseNoise& noise, bool robust, Utime* moved);
+  // The problem refers to `unknowns`, `terms` and the states.
+  void AddMeasurements(const PoseNoise& noise, ceres::LossFunction* loss, Unknowns* unknowns,
+                       std::vector<Preintegration>* terms, ceres::Problem* problem);
+  void AddPriors(const CameraImuPrior& prior, Unknowns* unknowns, ceres::Problem* problem);
+  bool ComputeCovariance(Unknowns* unknowns, ceres::Problem* problem);
   Eigen::Matrix<double, 6, 1> Residual(std::size_t k) const;
   void StartStates();
 

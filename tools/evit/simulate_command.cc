@@ -9,6 +9,7 @@
 #include "common/geometry/se3.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/data_file.h"
+#include "tools/evit/options.h"
 #include "tools/evit/simulate_options.h"
 #include "tools/simulation/load_motion.h"
 #include "tools/simulation/simulator.h"
@@ -42,9 +43,9 @@ void PrintSummary(const simulation::SimulationSettings& settings, const simulati
   std::printf("%.1f s wall; written to %s\n", s.wall_s, settings.out.c_str());
 }
 
-void Run(const SimulateOptions& options, const std::string& command) {
+void Run(const SimulateOptions& options) {
   simulation::SimulationSettings settings = options.Settings();
-  settings.command = command;
+  settings.command = CommandLineOfThis();
   const std::string rig = options.rig().empty() ? DataFile("config/vector/rig.textproto") : options.rig();
   simulation::SimulationSummary summary;
   {
@@ -68,10 +69,7 @@ void AddSimulateCommand(CLI::App* app) {
       app->add_subcommand("simulate", "Simulate an event camera and an IMU in a furnished room");
   const auto options = std::make_shared<SimulateOptions>();
   options->AddTo(command);
-  command->callback([options, command] {
-    // The parser does not keep the words as typed, but what it read.
-    Run(*options, "evit simulate\n" + command->config_to_str(false, false));
-  });
+  command->callback([options] { Run(*options); });
 }
 
 }  // namespace evit::commands

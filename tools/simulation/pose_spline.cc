@@ -44,6 +44,28 @@ std::array<double, kOrder> Cumulative(std::array<double, kOrder> basis) {
 
 using Solver = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
 
+void CheckPoses(const Trajectory& poses, double knot_spacing) {
+  if (!(knot_spacing > 1e-3)) throw std::runtime_error("knot spacing must be over 1 ms");
+  constexpr std::size_t kFewest = 12;
+  if (poses.size() < kFewest) {
+    throw std::runtime_error("trajectory has " + std::to_string(poses.size()) + " poses; needs at least " +
+                             std::to_string(kFewest));
+  }
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    if (poses[i].t <= poses[i - 1].t) throw std::runtime_error("trajectory stamps do not increase");
+  }
+}
+
+// Rows from `row` on: third differences of the n control points. Weak against the data (weight 1 per pose),
+// yet enough to bridge segments without any.
+void PenaliseJerk(int row, int n, std::vector<Eigen::Triplet<double>>* entries) {
+  constexpr double kWeight = 1e-2;
+  constexpr std::array<double, 4> kDifference{-1, 3, -3, 1};
+  for (int i = 0; i + 3 < n; ++i) {
+    for (int j = 0; j < 4; ++j) entries->emplace_back(row + i, i + j, kWeight * kDifference[j]);
+  }
+}
+
 }  // namespace
 
 std::array<double, kOrder> SplineBasis(double u, int derivative) {
@@ -96,16 +118,33 @@ PoseSpline PoseSpline::Moved(const SE3& T_new_old) const {
   return moved;
 }
 
+void PoseSpline::FitRotations(const Trajectory& poses, const Solve& solve) {
+  const int n = static_cast<int>(rotations_.size());
+  // Start from the nearest pose, then Gauss-Newton: near the solution, turning control point j by a small
+  // delta_j turns the curve by about sum_j basis_j * delta_j, so every step is the same linear problem.
+  for (int i = 0; i < n; ++i) {
+    const double centre = (i - 0.5 * (kDegree - 1)) * spacing_;
+    const Utime t = begin_ + static_cast<Utime>(std::llround(centre * 1e6));
+    const auto after = std::lower_bound(poses.begin(), poses.end(), t,
+                                        [](const StampedPose& p, Utime value) { return p.t < value; });
+    rotations_[i] = (after == poses.end() ? poses.back() : *after).pose.q.normalized();
+  }
+  Eigen::MatrixX3d errors(static_cast<Eigen::Index>(poses.size()), 3);
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    for (Eigen::Index i = 0; i < errors.rows(); ++i) {
+      errors.row(i) = LogSO3(Pose(poses[i].t).q.conjugate() * poses[i].pose.q).transpose();
+    }
+    const Eigen::MatrixX3d delta = solve(errors);
+    for (int i = 0; i < n; ++i) {
+      const Eigen::Vector3d turn = delta.row(i).transpose();
+      rotations_[i] = (rotations_[i] * ExpSO3(turn)).normalized();
+    }
+    if (delta.cwiseAbs().maxCoeff() < 1e-10) break;
+  }
+}
+
 PoseSpline PoseSpline::Fit(const Trajectory& poses, double knot_spacing) {
-  if (!(knot_spacing > 1e-3)) throw std::runtime_error("knot spacing must be over 1 ms");
-  constexpr std::size_t kFewest = 12;
-  if (poses.size() < kFewest) {
-    throw std::runtime_error("trajectory has " + std::to_string(poses.size()) + " poses; needs at least " +
-                             std::to_string(kFewest));
-  }
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    if (poses[i].t <= poses[i - 1].t) throw std::runtime_error("trajectory stamps do not increase");
-  }
+  CheckPoses(poses, knot_spacing);
   PoseSpline spline;
   spline.begin_ = poses.front().t;
   spline.end_ = poses.back().t;
@@ -113,52 +152,30 @@ PoseSpline PoseSpline::Fit(const Trajectory& poses, double knot_spacing) {
   const double length = ToSeconds(spline.end_ - spline.begin_);
   const int n = static_cast<int>(std::floor(length / knot_spacing)) + 1 + kDegree;
   const int m = static_cast<int>(poses.size());
-
-  std::vector<Eigen::Triplet<double>> entries;
   spline.positions_.assign(n, Eigen::Vector3d::Zero());
   spline.rotations_.resize(n);
+
+  std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < m; ++i) {
     const Place place = spline.Find(poses[i].t);
     const auto basis = SplineBasis(place.u, 0);
     for (int j = 0; j < kOrder; ++j) entries.emplace_back(i, place.first + j, basis[j]);
   }
-  // Weak against the data (weight 1 per pose), yet enough to bridge segments without any.
-  constexpr double kJerkWeight = 1e-2;
-  for (int i = 0; i + 3 < n; ++i) {
-    const std::array<double, 4> difference{-1, 3, -3, 1};
-    for (int j = 0; j < 4; ++j) entries.emplace_back(m + i, i + j, kJerkWeight * difference[j]);
-  }
+  PenaliseJerk(m, n, &entries);
   Eigen::SparseMatrix<double> a(m + n - 3, n);
   a.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SparseMatrix<double> at = a.transpose();
   const Solver solver(Eigen::SparseMatrix<double>(at * a));
   if (solver.info() != Eigen::Success) throw std::runtime_error("cannot fit a spline to the trajectory");
+  const Solve solve = [&](const Eigen::MatrixX3d& b) -> Eigen::MatrixX3d {
+    return solver.solve(at.leftCols(m) * b);
+  };
 
-  Eigen::MatrixX3d b = Eigen::MatrixX3d::Zero(a.rows(), 3);
-  for (int i = 0; i < m; ++i) b.row(i) = poses[i].pose.p.transpose();
-  const Eigen::MatrixX3d control = solver.solve(at * b);
+  Eigen::MatrixX3d positions(m, 3);
+  for (int i = 0; i < m; ++i) positions.row(i) = poses[i].pose.p.transpose();
+  const Eigen::MatrixX3d control = solve(positions);
   for (int i = 0; i < n; ++i) spline.positions_[i] = control.row(i).transpose();
-
-  // Start from the nearest pose, then Gauss-Newton: near the solution, turning control point j by a small
-  // delta_j turns the curve by about sum_j basis_j * delta_j, so every step is the same linear problem.
-  for (int i = 0; i < n; ++i) {
-    const double centre = (i - 0.5 * (kDegree - 1)) * knot_spacing;
-    const Utime t = spline.begin_ + static_cast<Utime>(std::llround(centre * 1e6));
-    const auto after = std::lower_bound(poses.begin(), poses.end(), t,
-                                        [](const StampedPose& p, Utime value) { return p.t < value; });
-    spline.rotations_[i] = (after == poses.end() ? poses.back() : *after).pose.q.normalized();
-  }
-  for (int iteration = 0; iteration < 12; ++iteration) {
-    for (int i = 0; i < m; ++i) {
-      b.row(i) = LogSO3(spline.Pose(poses[i].t).q.conjugate() * poses[i].pose.q).transpose();
-    }
-    const Eigen::MatrixX3d delta = solver.solve(at.leftCols(m) * b.topRows(m));
-    for (int i = 0; i < n; ++i) {
-      const Eigen::Vector3d turn = delta.row(i).transpose();
-      spline.rotations_[i] = (spline.rotations_[i] * ExpSO3(turn)).normalized();
-    }
-    if (delta.cwiseAbs().maxCoeff() < 1e-10) break;
-  }
+  spline.FitRotations(poses, solve);
   return spline;
 }
 

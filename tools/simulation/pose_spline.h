@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "common/evaluation/trajectory.h"
@@ -46,6 +47,9 @@ class PoseSpline {
     double u;   // 0..1 within the segment
   };
   Place Find(Utime t) const;
+  /// Least squares: values at the poses [m x 3] to values of the control points [n x 3].
+  using Solve = std::function<Eigen::MatrixX3d(const Eigen::MatrixX3d&)>;
+  void FitRotations(const Trajectory& poses, const Solve& solve);
 
   Utime begin_ = 0, end_ = 0;
   double spacing_ = 0;  // s
