@@ -3,24 +3,19 @@
 #include <lcm/lcm.h>
 
 #include <algorithm>
-#include <csignal>
 #include <deque>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "common/bus/channel_filter.h"
+#include "common/bus/lcm_connection.h"
 #include "common/bus/lcm_url.h"
+#include "common/bus/limits.h"
 
 namespace evit {
 
 namespace {
-
-constexpr int kReceiveBuffer = 4 << 20;  // bytes: no loss up to 10 million events/s, where the default loses
-constexpr std::size_t kMaxMessage = std::size_t{16} << 20;  // bytes; LCM itself gives up at 65535 fragments
-/// Bound on what waits in this process for one subscription, bytes: some seconds of events, 16 times what
-/// lossless replay has under way. LCM's own limit counts messages whatever their size and drops in silence.
-constexpr std::size_t kMaxQueued = std::size_t{16} << 20;
 
 /// LCM channel names are regular expressions of GLib's; a backslash before each other character takes it
 /// literally.
@@ -36,56 +31,25 @@ std::string EscapeRegex(const std::string& channel) {
 
 class LcmBus : public Bus {
  public:
-  explicit LcmBus(const std::string& url) {
-    RequireSharedBus(url);
-    const LcmUrl parsed = ParseLcmUrl(url);
-    url_ = parsed;
-    std::string granted_url = url;
-    if (parsed.server) {
-      RequireServer(parsed);
-      std::signal(SIGPIPE,
-                  SIG_IGN);  // a server that goes away is an error of sending, not the end of the process
-      if (url.find(':', std::string("tcpq://").size()) == std::string::npos)
-        granted_url = "tcpq://" + parsed.host + ":" + std::to_string(parsed.port);
-    }
-    if (parsed.multicast) {
-      RequireMulticastRoute(parsed);
-      granted_ = ProbeReceiveBuffer(parsed.receive_buffer > 0 ? parsed.receive_buffer : kReceiveBuffer);
-      // Asking LCM for no more than will be granted keeps its warning off stderr; STATUS says what was
-      // granted.
-      granted_url = WithReceiveBuffer(url, granted_);
-    }
-    lcm_ = lcm_create(granted_url.c_str());
-    if (lcm_ == nullptr) {
-      throw std::runtime_error(
-          "cannot open the LCM bus \"" + url +
-          "\": check the URL (udpm://239.255.76.67:7667?ttl=0) and that multicast is routed");
-    }
-  }
-  ~LcmBus() override { lcm_destroy(lcm_); }
-  LcmBus(const LcmBus&) = delete;
-  LcmBus& operator=(const LcmBus&) = delete;
+  explicit LcmBus(const std::string& url) : connection_(url) {}
 
   void Publish(const std::string& channel, const void* data, std::size_t size) override {
-    if (size > kMaxMessage || channel.size() > LCM_MAX_CHANNEL_NAME_LENGTH || !Connected() ||
-        lcm_publish(lcm_, channel.c_str(), data, static_cast<unsigned>(size)) != 0) {
-      ++send_errors_;
-    }
+    connection_.Publish(channel, data, size);
   }
 
   void Subscribe(const std::string& channel, Handler handler) override {
     const std::vector<int> before =
-        url_.multicast && socket_ < 0 ? SocketsOnPort(url_.port) : std::vector<int>();
+        url().multicast && socket_ < 0 ? SocketsOnPort(url().port) : std::vector<int>();
     subscribers_.push_back({this, channel, std::move(handler), 0});
-    lcm_subscription_t* subscription =
-        lcm_subscribe(lcm_, EscapeRegex(channel).c_str(), &LcmBus::OnMessage, &subscribers_.back());
+    lcm_subscription_t* subscription = lcm_subscribe(connection_.lcm(), EscapeRegex(channel).c_str(),
+                                                     &LcmBus::OnMessage, &subscribers_.back());
     if (subscription == nullptr) {
       subscribers_.pop_back();
       throw std::runtime_error("cannot receive from the LCM bus (channel " + channel +
                                "): is multicast routed, and not filtered by a firewall?");
     }
-    if (url_.multicast && subscribers_.size() == 1) {  // LCM has its socket by now
-      HearOnlyOwnGroup(url_);
+    if (url().multicast && subscribers_.size() == 1) {  // LCM has its socket by now
+      HearOnlyOwnGroup(url());
       socket_ = NewSocket(before);
     }
     HearOnlySubscribed();
@@ -93,8 +57,8 @@ class LcmBus : public Bus {
   }
 
   int Poll(int timeout_ms) override {
-    RequireConnection();
-    if (queue_.empty() && lcm_handle_timeout(lcm_, timeout_ms) <= 0) return 0;
+    connection_.RequireConnection();
+    if (queue_.empty() && lcm_handle_timeout(connection_.lcm(), timeout_ms) <= 0) return 0;
     Drain();
     // What arrives meanwhile is taken from LCM but waits for the next Poll: a flooded bus must not starve
     // Tick().
@@ -110,15 +74,15 @@ class LcmBus : public Bus {
     return static_cast<int>(waiting);
   }
 
-  int granted_receive_buffer() const override { return granted_; }
-  std::int64_t send_errors() const override { return send_errors_; }
+  int granted_receive_buffer() const override { return connection_.granted_receive_buffer(); }
+  std::int64_t send_errors() const override { return connection_.send_errors(); }
   std::int64_t queue_drops() const override { return queue_drops_; }
 
  private:
   /// The one on the URL's port that is not in `before`; -1 where there is no such, or several.
   int NewSocket(const std::vector<int>& before) const {
     std::vector<int> others;
-    for (const int fd : SocketsOnPort(url_.port)) {
+    for (const int fd : SocketsOnPort(url().port)) {
       if (std::find(before.begin(), before.end(), fd) == before.end()) others.push_back(fd);
     }
     return others.size() == 1 ? others.front() : -1;
@@ -150,7 +114,7 @@ class LcmBus : public Bus {
   }
 
   void Enqueue(Subscriber* subscriber, const std::uint8_t* data, std::size_t size) {
-    if (subscriber->queued + size > kMaxQueued) {
+    if (subscriber->queued + size > kMaxQueuedBytes) {
       ++queue_drops_;
       return;
     }
@@ -166,23 +130,15 @@ class LcmBus : public Bus {
 
   /// Takes over what LCM's reader thread has queued, so that no queue without a bound can grow.
   void Drain() {
-    for (int i = 0; i < kMaxDrain && Connected() && lcm_handle_timeout(lcm_, 0) > 0; ++i) {
+    for (int i = 0; i < kMaxDrain && connection_.Connected() && lcm_handle_timeout(connection_.lcm(), 0) > 0;
+         ++i) {
     }
   }
 
-  /// LCM closes its socket where a tcpq server is gone, and then waits on none: the process would be aborted.
-  bool Connected() const { return !url_.server || lcm_get_fileno(lcm_) >= 0; }
-  void RequireConnection() const {
-    if (Connected()) return;
-    throw std::runtime_error("tcpq: the server at " + url_.host + ":" + std::to_string(url_.port) +
-                             " is gone; start it, then this program, again");
-  }
+  const LcmUrl& url() const { return connection_.url(); }
 
-  LcmUrl url_;
-  lcm_t* lcm_ = nullptr;
+  LcmConnection connection_;
   int socket_ = -1;  // LCM's, which it receives by; -1: not known
-  int granted_ = 0;
-  std::int64_t send_errors_ = 0;
   std::int64_t queue_drops_ = 0;
   std::deque<Subscriber> subscribers_;  // LCM holds their addresses
   std::deque<Queued> queue_;

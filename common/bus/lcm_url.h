@@ -4,6 +4,10 @@
 
 namespace evit {
 
+/// Receive buffer that is asked for where the URL names none, bytes: no loss up to 10 million events/s, where
+/// the kernel's default loses.
+inline constexpr int kDefaultReceiveBuffer = 4 << 20;
+
 /// What is in an LCM URL of the kind udpm://GROUP:PORT?ttl=T&recv_buf_size=B or tcpq://HOST:PORT.
 struct LcmUrl {
   bool multicast = false;  // udpm

@@ -1,6 +1,7 @@
 #include "common/bus/log_file.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -80,10 +81,16 @@ std::int32_t LogReader::ChannelIndex(const std::string& name) {
 
 void LogReader::Read(const LogEntry& entry, std::vector<std::uint8_t>* data) const {
   data->resize(static_cast<std::size_t>(entry.size));
-  if (::fseeko(file_.get(), entry.offset, SEEK_SET) != 0 ||
-      std::fread(data->data(), 1, data->size(), file_.get()) != data->size()) {
-    throw std::runtime_error("cannot read log " + path_ + " at byte " + std::to_string(entry.offset) +
-                             ": has it been changed since it was opened?");
+  // Not by the stream: it would read each end of a message twice.
+  for (std::size_t done = 0; done < data->size();) {
+    const ssize_t n = ::pread(::fileno(file_.get()), data->data() + done, data->size() - done,
+                              entry.offset + static_cast<std::int64_t>(done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) {
+      throw std::runtime_error("cannot read log " + path_ + " at byte " + std::to_string(entry.offset) +
+                               ": has it been changed since it was opened?");
+    }
+    done += static_cast<std::size_t>(n);
   }
 }
 

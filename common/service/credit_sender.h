@@ -15,13 +15,13 @@ namespace evit {
 /// A clock that never jumps, us, for time-outs.
 std::int64_t SteadyTime();
 
-/// A consumer's side of lossless replay: says on CREDIT how far it has come. A credit goes out for each 64 kB
-/// consumed (less where the receive buffer is small), within 2 ms of anything consumed, every 50 ms, and at
-/// the next Tick() after Ask(): so the sender hears of a consumer before it sends anything, a window that
+/// A consumer's side of lossless replay: says on CREDIT how far it has come. A credit goes out for each 256
+/// kB consumed (less where the receive buffer is small), within 2 ms of anything consumed, every 50 ms, and
+/// at the next Tick() after Ask(): so the sender hears of a consumer before it sends anything, a window that
 /// holds few messages does not stall, and a lost credit is made good by the next.
 class CreditSender {
  public:
-  static constexpr std::int64_t kBytes = 64 << 10;
+  static constexpr std::int64_t kBytes = 256 << 10;  // a quarter of the largest window
   static constexpr std::int64_t kPeriodUs = 50'000;
   static constexpr std::int64_t kBusyPeriodUs = 2'000;
 

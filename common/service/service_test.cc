@@ -111,10 +111,10 @@ TEST_F(ServiceTest, CreditGoesOutAtOnceForEachWindowfulAndOnRequest) {
   CreditSender sender(bus_.get(), channels_, "frame_builder", 4, [&now_us] { return now_us; });
   sender.Tick();  // here I am
   sender.Tick();
-  sender.Consumed(7, 1, 0, 30'000);  // a new stream
+  sender.Consumed(7, 1, 0, 120'000);  // a new stream
   sender.Tick();
-  sender.Consumed(7, 2, 0, 40'000);
-  sender.Consumed(7, 3, 0, 40'000);  // 64 kB
+  sender.Consumed(7, 2, 0, 160'000);
+  sender.Consumed(7, 3, 0, 160'000);  // 256 kB and more
   sender.Ask();
   sender.Tick();
   now_us += CreditSender::kPeriodUs - 1;
