@@ -74,7 +74,7 @@ struct Values {
     std::vector<double> numbers;
     for (const std::string& word : Words(key, n)) {
       double value = 0;
-      if (!ParseNumber(word, &value) || !std::isfinite(value)) Fail(key, "\"" + word + "\" is no number");
+      if (!ParseNumber(word, &value) || !std::isfinite(value)) Fail(key, "\"" + word + "\" is not a number");
       numbers.push_back(value);
     }
     return numbers;
@@ -121,7 +121,7 @@ SE3 ToBodyCamera(const Values& v) {
   const Eigen::Matrix3d R = T.topLeftCorner<3, 3>();
   if (!((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3) || R.determinant() < 0 ||
       !((T.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() < 1e-9))
-    v.Fail("T_cam_imu", "is no rigid transformation (4x4, row by row)");
+    v.Fail("T_cam_imu", "is not a rigid transformation (4x4, row by row)");
   return SE3(T).Inverse();
 }
 

@@ -113,10 +113,10 @@ TEST_F(KalibrFileTest, FaultsAreNamed) {
   EXPECT_THAT(Error("camera_model: pinhole", "camera_model: omni"), HasSubstr("cam0.camera_model"));
   EXPECT_THAT(Error("model: radtan", "model: fov"), HasSubstr("pinhole-radtan"));
   EXPECT_THAT(Error("T_cam_imu", "T_cam_x"), HasSubstr("kalibr_calibrate_imu_camera"));
-  EXPECT_THAT(Error("[0.0, -1.0, 0.0, 0.01]", "[0.0, -2.0, 0.0, 0.01]"), HasSubstr("no rigid"));
+  EXPECT_THAT(Error("[0.0, -1.0, 0.0, 0.01]", "[0.0, -2.0, 0.0, 0.01]"), HasSubstr("not a rigid"));
   EXPECT_THAT(Error("shift_cam_imu: 0.005", "shift_cam_imu: 5000"), HasSubstr("less than a second"));
   EXPECT_THAT(Error("[320, 240]", "[320]"), HasSubstr("2 values are expected, got 1"));
-  EXPECT_THAT(Error("163.6", "x"), HasSubstr("\"x\" is no number"));
+  EXPECT_THAT(Error("163.6", "x"), HasSubstr("\"x\" is not a number"));
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ std::string TransformText(const char* name, const SE3& T) {
 }
 
 std::string MarkerText(const SE3& T_marker_body) {
-  return "# Body to the frame that the ground truth tells of, row-major 4x4.\n" +
+  return "# Body to the frame that the ground truth describes, row-major 4x4.\n" +
          TransformText("T_marker_body", T_marker_body);
 }
 
@@ -132,7 +132,7 @@ std::string CameraText(const Camera& c, Utime time_offset) {
 }
 
 std::string ImuText(double rate_hz, const ImuNoise& n) {
-  // No limit is no key.
+  // A limit that is not set has no key.
   const std::string ranges =
       (std::isfinite(n.gyro_range) ? "\n  gyro_range: " + NumberText(n.gyro_range) + "  # rad/s, full scale"
                                    : "") +

@@ -22,7 +22,7 @@ EventCensus::EventCensus(int width, int height)
 bool EventCensus::IsAlone(Utime t, int x, int y) const {
   for (int v = std::max(0, y - kNear); v <= std::min(height_ - 1, y + kNear); ++v) {
     for (int u = std::max(0, x - kNear); u <= std::min(width_ - 1, x + kNear); ++u) {
-      if (u == x && v == y) continue;  // a pixel that fires by itself is no company
+      if (u == x && v == y) continue;  // a pixel that fires by itself is not company
       if (t - fired_[static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) +
                      static_cast<std::size_t>(u)] <=
           kCompany)

@@ -26,7 +26,7 @@ Finding Rate(const EventCensus& e) {
   // rest.
   if (per_pixel < 0.05) {
     return {"event-rate", Severity::kError, figure,
-            "There are hardly any events: the camera did not move, the lens was covered, or its thresholds "
+            "There are too few events: the camera did not move, the lens was covered, or its thresholds "
             "are set far too high.",
             "record while moving; lower the camera's contrast thresholds (bias_diff_on, bias_diff_off)"};
   }
@@ -193,7 +193,7 @@ Finding Noise(const EventCensus& e) {
   const std::string figure = FormatText("%.0f %% of the events isolated", 100 * share);
   if (share > 0.5) {
     return {"event-noise", share > 0.8 ? Severity::kError : Severity::kWarning, figure,
-            "Most events have no other near them in space and time: noise, or hardly any motion.",
+            "Most events have no other near them in space and time: noise, or too little motion.",
             "raise the camera's thresholds or its low-pass (bias_fo), give it more light, move more"};
   }
   return Good("event-noise", figure);

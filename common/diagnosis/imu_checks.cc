@@ -180,7 +180,8 @@ Finding Saturation(const std::vector<ImuSample>& samples, const ImuNoise& limits
       run = value(s) >= 0.9999 * largest || value(s) >= 0.99 * range ? run + 1 : 0;
       at += run == 3 ? 3 : run > 3 ? 1 : 0;
     }
-    if (largest < (gyro ? 1.0 : 12.0)) continue;  // a reading that rests at its extreme is no motion cut off
+    if (largest < (gyro ? 1.0 : 12.0))
+      continue;  // a reading that rests at its extreme is not a clipped motion
     if (at > 0) (gyro ? at_gyro : at_accel) = largest;
     cut += at;
   }

@@ -28,7 +28,7 @@ Finding Unit(const MapSummary& s) {
   }
   if (s.n_points < 500) {
     return {"map-size", s.n_points < 100 ? Severity::kError : Severity::kWarning, figure,
-            "The map has hardly any points.", "make one from camera frames: `evit map build`"};
+            "The map has too few points.", "make one from camera frames: `evit map build`"};
   }
   if (s.median_spacing > 0.1) {
     return {"map-spacing", Severity::kWarning, figure, "The map's points are far apart.",
@@ -53,7 +53,8 @@ Finding View(const MapIndex& map, const Rig& rig, const SE3& start) {
         away > 3
             ? FormatText(
                   "The start pose is %.1f m outside the map: it is in another frame, or another map's.", away)
-            : "From the start pose the camera hardly sees the map: it looks elsewhere, or T_body_camera is "
+            : "From the start pose the camera sees almost nothing of the map: it looks elsewhere, or "
+              "T_body_camera is "
               "turned.",
         "give the pose of the IMU in the map (x y z qx qy qz qw), or none: EVIT then looks for it"};
   }

@@ -12,7 +12,7 @@
 namespace evit::diagnosis {
 namespace {
 
-constexpr double kFits = 0.08;               // overlap, of 1: more is no chance
+constexpr double kFits = 0.08;               // overlap, of 1: more is not chance
 constexpr Utime kLongestOffset = 1'000'000;  // us, of the camera's clock
 constexpr double kPi = 3.14159265358979323846;
 

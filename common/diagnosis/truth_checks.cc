@@ -114,7 +114,7 @@ Finding Span(const Trajectory& truth, const std::vector<ImuSample>& imu) {
                  ToSeconds(truth.back().t), ToSeconds(first->t), ToSeconds(last->t));
   if (both <= needed) {
     return {"truth-span", Severity::kError, figure,
-            "The truth's poses and the recording hardly overlap in time.",
+            "The truth's poses and the recording barely overlap in time.",
             "give the truth of this recording, in seconds of the IMU's clock"};
   }
   return Good("truth-span", figure);
@@ -218,7 +218,7 @@ RateFit FitRates(const Trajectory& truth, const std::vector<ImuSample>& imu, Uti
   RateFit best = as_is;
   for (Utime lag = -reach; lag <= reach; lag += kLagStep) {
     const RateFit fit = FitAt(rates, gyro, lag);
-    // A lag that leaves little overlap is no evidence.
+    // A lag that leaves little overlap proves nothing.
     if (2 * fit.n >= as_is.n && fit.n >= 50 && fit.explained > best.explained) best = fit;
   }
   best.explained_as_is = as_is.explained;

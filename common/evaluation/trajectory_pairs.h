@@ -18,8 +18,8 @@ inline constexpr Utime kDenseTruth = 50'000;
 
 /// One pair for each pose of the estimate, the truth interpolated. Where the truth is sparser than
 /// kDenseTruth and than the estimate, one for each pose of the truth instead, the estimate interpolated: a
-/// line between two poses a quarter of a second apart is no truth. What is interpolated may have holes of one
-/// and a half times its own usual step, at least 0.2 s, at most 1 s.
+/// line between two poses a quarter of a second apart is not truth. What is interpolated may have holes of
+/// one and a half times its own usual step, at least 0.2 s, at most 1 s.
 std::vector<TrajectoryPair> MakePairs(const Trajectory& truth, const Trajectory& estimate);
 
 /// The longest hole (us) that MakePairs interpolates over in this trajectory.

@@ -13,7 +13,7 @@ enum class TimeUnit { kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
 
 /// A decimal number of `unit` ("1642661138.836530", "12", "1.642661138299999952e+09") to microseconds without
 /// going through a double, which loses microseconds of today's dates. What is finer is rounded. False where
-/// the text is no finite number, or beyond any date.
+/// the text is not a finite number, or beyond any date.
 bool ParseDecimalTime(std::string_view text, TimeUnit unit, Utime* time);
 
 /// The unit of a time since 1970, from how many digits it has before the point: 10 (s), 13 (ms), 16 (us), 19

@@ -70,7 +70,7 @@ TEST_F(TableReaderTest, HeadsOfColumnsAreTold) {
     EXPECT_EQ(lines.more(), text[0] == ';') << text;
     EXPECT_FALSE(lines.Next()) << text;
   }
-  TableReader lines = Open("t x\n1 2\nnext part\n");  // between rows it is no head
+  TableReader lines = Open("t x\n1 2\nnext part\n");  // between rows it is not a head
   ASSERT_TRUE(lines.Next());
   ASSERT_TRUE(lines.Next());
   EXPECT_THROW(lines.Number(), std::runtime_error);

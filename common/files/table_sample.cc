@@ -19,7 +19,8 @@ std::string WithoutMicroSign(std::string word) {
   return word;
 }
 
-// A word in lower case, taken apart at everything that is no letter: "#timestamp[ns]" to "timestamp", "ns".
+// A word in lower case, taken apart at everything that is not a letter: "#timestamp[ns]" to "timestamp",
+// "ns".
 std::vector<std::string> Letters(const std::string& word) {
   std::vector<std::string> parts(1);
   for (const char c : WithoutMicroSign(word)) {

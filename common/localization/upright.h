@@ -19,7 +19,7 @@ struct Upright {
 /// two momentary ones: of hand-held motion a third of the error.
 ///
 /// `sigma` is what the readings themselves say: by how much the means of the window's halves differ.
-/// Not known: fewer than ten samples, less than 0.1 s, or a mean that is no gravity (a fall, a wrong unit).
+/// Not known: fewer than ten samples, less than 0.1 s, or a mean that is not gravity (a fall, a wrong unit).
 Upright EstimateUpright(const std::vector<ImuSample>& samples, double gravity);
 
 }  // namespace evit

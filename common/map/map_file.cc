@@ -213,8 +213,8 @@ void RequireMetres(const MapSummary& summary, const std::string& path) {
     throw std::runtime_error(path + text);
   }
   const float extent = (summary.max - summary.min).maxCoeff();
-  // Edges sampled more coarsely than a metre are no semi-dense map; a few stray points far away are no
-  // reason, so the spacing is what tells.
+  // Edges sampled more coarsely than a metre are not a semi-dense map; a few stray points far away do
+  // not matter, so the spacing is what tells.
   if (summary.n_points < 100 || summary.median_spacing < 0.5) return;
   char text[300];
   std::snprintf(

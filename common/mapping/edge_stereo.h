@@ -13,7 +13,7 @@ struct EdgeStereoOptions {
   double max_rival_share = 0.6;  // another depth with as much of the best one's support makes it ambiguous
   double edge_sigma_px = 0.35;   // of an edge's place in one image, poses' errors included
   double normal_sigma = 0.03;    // rad, of an edge's direction in one image
-  double max_relative_sigma = 0.06;  // of the depth; more is no measurement
+  double max_relative_sigma = 0.06;  // of the depth; more is not a measurement
   double lag_sigma_px = 0.4;         // of an edge in event views, beside what is known of all
   double side_tolerance = 0.5;       // log intensity: by which one side at least must look the same
 };

@@ -161,8 +161,8 @@ BuiltMap BuildMap(std::vector<PosedEdges> views, const MapBuilderOptions& option
   map.typical_depth_m = options.typical_depth_m > 0 ? options.typical_depth_m : SceneDepth(views, options);
   if (map.typical_depth_m <= 0) {
     throw std::runtime_error(
-        "hardly an edge agrees between the views: the poses do not belong to these images (another clock, "
-        "order or frame), the camera's calibration is another one's, or the camera hardly moved");
+        "almost no edge agrees between the views: the poses do not belong to these images (another clock, "
+        "order or frame), the camera's calibration is another one's, or the camera barely moved");
   }
 
   const std::vector<int> keys = ChooseKeyViews(views, options.choice);

@@ -36,7 +36,7 @@ struct Frame {
     scene.level = level;
     const SE3 T = (pose * test::BodyCamera()).Inverse();
     for (const GradientPoint& g : FindGradientPoints(view, level, 1, 0.02, 3000)) {
-      Eigen::Vector2d pixel;  // as the tracker does: a point that leaves the image is no smooth affair
+      Eigen::Vector2d pixel;  // as the tracker does: a point that leaves the image is not smooth
       if (camera.Project(T * g.point, &pixel) && camera.Contains(pixel, 20)) scene.points.push_back(g);
     }
     scene.origin = pose.p;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kFewest = 8;               // points in a patch
 constexpr double kLeastCurvature = 0.1;  // of the median patch's, by point: below it the bottom is anywhere
-constexpr double kFarthest = 5;  // pixels: beyond some widths of a valley the step is no measure any more
+constexpr double kFarthest = 5;  // pixels: beyond some widths of a valley the step measures nothing any more
 
 struct Patch {
   int n = 0;

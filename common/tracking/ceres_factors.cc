@@ -45,7 +45,7 @@ bool EventAlignmentFactor::Evaluate(double const* const* parameters, double* res
     r[6] = std::sqrt(2 * term.cost);
     return std::isfinite(r[6]);
   }
-  // Eigenvectors rather than Cholesky: an empty surface gives H without rank, and that is no error.
+  // Eigenvectors rather than Cholesky: an empty surface gives H without rank, and that is not an error.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(term.hessian);
   const Eigen::Matrix<double, 6, 1> root = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
   PoseJacobian7 J(jacobians[0]);

@@ -42,8 +42,8 @@ struct LogReplayOptions {
 /// what got lost.
 class LogReplay : public Service {
  public:
-  /// `bus` must outlive this. Throws std::runtime_error where the log is no good (see Recording) or options
-  /// disagree.
+  /// `bus` must outlive this. Throws std::runtime_error where the log cannot be used (see Recording) or
+  /// options disagree.
   LogReplay(const LogReplayOptions& options, Bus* bus, const Channels& channels);
 
   void Tick() override;

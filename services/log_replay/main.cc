@@ -37,7 +37,7 @@ int Run(int argc, char** argv) {
   line.Add("--log", &options.log, "LCM log, e.g. made by `evit import`").Required();
   line.Add("--log-prefix", &options.log_prefix, "of the channel names in the log; default: found by itself");
   line.AddFlag("--allow-truncated", &options.allow_truncated,
-               "replay what is whole of a log that was cut off");
+               "replay the complete messages of a log that was cut off");
   line.Add("--speed", &options.speed, "1: real time, 2: twice as fast, 0: unpaced (default of --lossless)")
       .Range(0.0, 1000.0);
   line.Add("--wait-for", &options.wait_for, "consumer whose CREDIT counts with --lossless; may be repeated")

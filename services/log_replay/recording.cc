@@ -11,10 +11,10 @@ namespace evit {
 Recording::Recording(const std::string& path, const std::string& prefix, bool allow_truncated)
     : path_(path), log_(path) {
   if (log_.trailing_bytes() > 0 && !allow_truncated) {
-    throw std::runtime_error("log " + path +
-                             " is cut off or damaged: " + std::to_string(log_.trailing_bytes()) +
-                             " bytes after its last whole message (" + std::to_string(log_.entries().size()) +
-                             " are whole); make it again, or replay what is whole with --allow-truncated");
+    throw std::runtime_error(
+        "log " + path + " is cut off or damaged: " + std::to_string(log_.trailing_bytes()) +
+        " bytes after its last whole message (" + std::to_string(log_.entries().size()) +
+        " are whole); make it again, or replay the complete ones with --allow-truncated");
   }
   const Channels channels(FindLogPrefix(path, log_.channels(), prefix));
   std::vector<int> kind_of(log_.channels().size(), -1);

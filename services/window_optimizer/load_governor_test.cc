@@ -8,7 +8,7 @@ namespace {
 TEST(LoadGovernor, NothingHappensWhileNothingWaits) {
   LoadGovernor governor;
   for (int k = 0; k < 1000; ++k)
-    governor.Observe(k % 50 == 0 ? 40 : 1);  // a late one now and then is no overload
+    governor.Observe(k % 50 == 0 ? 40 : 1);  // a late one now and then is not overload
   EXPECT_EQ(governor.level(), 0);
   EXPECT_EQ(governor.point_share(), 1);
   EXPECT_EQ(governor.keyframe_stride(), 1);

@@ -58,7 +58,7 @@ Findings CheckLog(const RecordedData& data) {
   }
   if (data.truncated()) {
     found.push_back({"log", Severity::kWarning, "the log ends in the middle of a message",
-                     "The log was cut off.", "`evit run --allow-truncated` uses what is whole"});
+                     "The log was cut off.", "`evit run --allow-truncated` uses the complete messages"});
   }
   if (found.empty()) found.push_back(diagnosis::Good("log", "every message well-formed"));
   return found;

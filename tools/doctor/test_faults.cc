@@ -58,7 +58,7 @@ bool Turns(const Sample& s, double seconds) {
   return std::sqrt(sum / static_cast<double>(s.imu.size())) * s.rig.camera.fx * seconds > 3;
 }
 
-// Whether pixels fire so often that one without any event is no chance.
+// Whether pixels fire so often that one without any event is not chance.
 bool FiresEverywhere(const Sample& s) {
   return s.events.size() > 5 * static_cast<std::size_t>(s.rig.camera.width * s.rig.camera.height);
 }

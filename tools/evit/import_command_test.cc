@@ -85,7 +85,7 @@ TEST_F(ImportCommandTest, WhatIsNoRecordingIsNamedWithItsRemedy) {
   const std::pair<std::string, const char*> cases[] = {
       {"", "is empty"},
       {"\x1f\x8b\b", "gunzip"},
-      {std::string("PK\x03\x04") + std::string(26, '.') + "t.npy", "no whole archive"},
+      {std::string("PK\x03\x04") + std::string(26, '.') + "t.npy", "not a complete archive"},
       {std::string("PK\x03\x04") + std::string(26, '.') + "events.txt", "unzip"},
       {"\x89PNG\r\n", "is a picture"},
       {std::string(4, ' ') + "ftypisom", "is a video"},

@@ -72,7 +72,7 @@ bool LocateOften(const LocateOptions& o, const locate::RecordedStreams& streams,
                  const std::function<locate::LocatorResult(Utime)>& run) {
   const Trajectory truth = ReadTum(o.truth);
   locate::StartTally tally;
-  const double span = ToSeconds(streams.end() - streams.begin()) - 1.5;  // less is no time to be sure
+  const double span = ToSeconds(streams.end() - streams.begin()) - 1.5;  // less is too short to be sure
   if (span <= 0) throw std::runtime_error(o.log + ": is shorter than 1.5 s: leave --starts out");
   for (int k = 0; k < o.starts; ++k) {
     const double at = span * (k + 0.5) / o.starts;

@@ -123,7 +123,7 @@ void AddMapBuild(CLI::App* map) {
       ->check(CLI::PositiveNumber);
   command->add_option("--max-depth", o->making.build.stereo.max_depth_m, "Farthest edge, m")
       ->check(CLI::PositiveNumber);
-  command->add_option("--voxel", o->making.build.thinning.voxel_m, "One point of an edge per so many metres")
+  command->add_option("--voxel", o->making.build.thinning.voxel_m, "One point per so many metres of an edge")
       ->check(CLI::Range(0.001, 0.1));
   command->add_flag("--keep-poses", o->keep_poses,
                     "Take the poses as exact instead of fitting them to each other");

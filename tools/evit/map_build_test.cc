@@ -174,7 +174,7 @@ TEST_F(MapOfEventsTest, RefusesAnotherClockACameraAtRestAndWhatIsMissing) {
   std::ofstream(File("rest.tum")) << "1600000000 0 0 0 0 0 0 1\n1600000000.1 0 0 0 0 0 0 1\n";
   const std::pair<Outcome, std::string> refused[] = {
       {OfEvents("later.tum"), "another clock"},
-      {OfEvents("rest.tum"), "hardly moves"},
+      {OfEvents("rest.tum"), "barely moves"},
       {OfEvents("body.tum", "--seconds 5:6"), "no pose in the seconds"},
       {Map("build --events " + File("events.lcmlog") + " --out " + File("events.pcd")), "--poses and --rig"}};
   fs::remove(File("events.pcd"));

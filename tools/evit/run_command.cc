@@ -87,7 +87,7 @@ void AddTolerances(CLI::App* run, RunOptions* o) {
   run->add_option("--log-prefix", o->job.play.log_prefix,
                   "Prefix of EVENTS and IMU in the log (default: found, where there is only one)");
   run->add_flag("--allow-truncated", o->job.tolerate.truncated,
-                "Run what is whole of a log that was cut off");
+                "Run the complete messages of a log that was cut off");
   run->add_flag("--any-rig", o->job.tolerate.any_rig,
                 "Run even where the rig's T_body_camera looks like its inverse");
   run->add_flag("--any-imu", o->job.tolerate.any_imu, "Run even where the IMU's units or axes look wrong");

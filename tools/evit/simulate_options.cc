@@ -127,7 +127,7 @@ void SimulateOptions::AddWorld(CLI::App* command) {
       ->check(RangeForm());
   group.Add("--dark", &dark_, "The lens is covered in this time, s; covering and opening take 0.1 s each")
       ->check(RangeForm());
-  group.Add("--room", &room_, "furnished, or plain: hardly any texture")
+  group.Add("--room", &room_, "furnished, or plain: almost no texture")
       ->check(CLI::IsMember({"furnished", "plain"}));
   group.Flag("--moving-box", &s.moving_box, "A textured box moves before the camera; it is not in the map");
   group.Add("--lamp-share", &s.lamp_share, "Share of the light that remains");

@@ -73,7 +73,7 @@ std::string DoubtOf(const BuiltMap& built) {
                   "only %.0f %% of the edges are found in other views at one depth: poses of another "
                   "recording, clock or "
                   "frame (the camera's, not a body's?), a calibration of another camera, or a camera that "
-                  "hardly moved for "
+                  "barely moved for "
                   "how far things are",
                   100 * found);
   } else if (built.adjustment.moved_m > kMuchMoved) {

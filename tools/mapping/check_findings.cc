@@ -122,7 +122,7 @@ std::vector<std::string> Findings(const MapCheckInputs& inputs, const MapCheck& 
   }
   if (unrelated) {
     findings.push_back(
-        Text("map and events have hardly anything to do with each other (%.0f %% of the "
+        Text("map and events have almost nothing to do with each other (%.0f %% of the "
              "points on events, %.0f %% by "
              "chance): another scene, another frame (are the poses the body's, not a "
              "marker's? is y up in the map: evit map transform --transform \"1 0 0 0 0 0 -1 0 0 1 0 0 "

@@ -103,7 +103,7 @@ ReadFrames ReadEventViews(const std::string& log, const Trajectory& body, const 
   std::vector<EventSlice> slices = PlanSlices(body, rig, depth, options.slices);
   if (slices.empty()) {
     throw std::runtime_error(poses_path +
-                             ": by these poses the camera hardly moves, or they have holes; an "
+                             ": by these poses the camera barely moves, or they have holes; an "
                              "event camera at rest shows no edges");
   }
   const Utime begin = slices.front().begin, end = slices.back().end;

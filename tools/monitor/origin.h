@@ -16,7 +16,7 @@ class OriginPolicy {
 
   /// `host`: the Host header, with or without a port.
   bool AllowsHost(const std::string& host) const;
-  /// `origin`: empty where there is none, as from a program that is no browser.
+  /// `origin`: empty where there is none, as from a program that is not a browser.
   bool Allows(const std::string& origin, const std::string& host) const;
 
  private:

@@ -40,13 +40,13 @@ SE3 ReadPose(const json& order) {
   Eigen::Quaterniond q;
   ReadNumbers(order, "position", kFarthest, p.data(), 3);
   ReadNumbers(order, "orientation", 1.01, q.coeffs().data(), 4);
-  if (std::abs(q.norm() - 1) > 1e-2) Refuse("orientation is no unit quaternion");
+  if (std::abs(q.norm() - 1) > 1e-2) Refuse("orientation is not a unit quaternion");
   return {q.normalized(), p};
 }
 
 std::string ReadCommand(const json& order) {
   const json& command = Field(order, "command");
-  if (!command.is_string() || command.get_ref<const std::string&>().empty()) Refuse("command is no name");
+  if (!command.is_string() || command.get_ref<const std::string&>().empty()) Refuse("command is not a name");
   return command.get<std::string>();
 }
 

@@ -43,7 +43,7 @@ TEST(PageOrder, AnythingElseIsRefusedAndSaysWhy) {
   EXPECT_THAT(Refusal("{}"), HasSubstr("order is missing"));
   EXPECT_THAT(Refusal(R"({"order":"exec","command":"rm"})"), HasSubstr("unknown"));
   EXPECT_THAT(Refusal(R"({"order":7})"), HasSubstr("unknown"));
-  EXPECT_THAT(Refusal(R"({"order":"restart","command":["a"]})"), HasSubstr("no name"));
+  EXPECT_THAT(Refusal(R"({"order":"restart","command":["a"]})"), HasSubstr("not a name"));
   EXPECT_THAT(Refusal(R"({"order":"seek","share":1.5})"), HasSubstr("out of range"));
   EXPECT_THAT(Refusal(R"({"order":"speed","speed":0})"), HasSubstr("out of range"));
   EXPECT_THAT(Refusal(R"({"order":"speed","speed":"fast"})"), HasSubstr("not a number"));
@@ -52,7 +52,7 @@ TEST(PageOrder, AnythingElseIsRefusedAndSaysWhy) {
   EXPECT_THAT(Refusal(R"({"order":"hint","position":[1,2,1e300],"orientation":[0,0,0,1]})"),
               HasSubstr("position is out of range"));
   EXPECT_THAT(Refusal(R"({"order":"hint","position":[1,2,3],"orientation":[0,0,0,0.5]})"),
-              HasSubstr("no unit quaternion"));
+              HasSubstr("not a unit quaternion"));
   EXPECT_THAT(Refusal(std::string(5000, ' ')), HasSubstr("longer than 4 kB"));
 }
 

@@ -11,7 +11,7 @@ struct TopOptions {
 };
 
 /// `evit top`: shows the pipeline in the terminal, four times a second, until SIGINT or SIGTERM; then the
-/// terminal is as it was. Where stdout is no terminal: as with `once`. Throws std::runtime_error where no
+/// terminal is as it was. Where stdout is not a terminal: as with `once`. Throws std::runtime_error where no
 /// bus was named and no pipeline runs on this host, or several and none was chosen.
 void ShowTop(const TopOptions& options);
 

@@ -38,7 +38,7 @@ void CheckMethods(const std::string& path, const Methods& methods, const std::st
   std::set<std::string> ids;
   for (const paper::Method& m : methods) {
     Require(IsFileName(m.id()), path,
-            field + ".id: \"" + m.id() + "\" is no file name: use letters, digits, _ and -");
+            field + ".id: \"" + m.id() + "\" is not a file name: use letters, digits, _ and -");
     Require(ids.insert(m.id()).second, path, field + ".id: \"" + m.id() + "\" is there twice");
   }
 }
@@ -46,7 +46,7 @@ void CheckMethods(const std::string& path, const Methods& methods, const std::st
 void CheckSequence(const std::string& path, const paper::Sequence& s) {
   const std::string where = "sequence " + s.name() + ": ";
   Require(IsFileName(s.name()), path,
-          "sequence.name: \"" + s.name() + "\" is no file name: use letters, digits, _ and -");
+          "sequence.name: \"" + s.name() + "\" is not a file name: use letters, digits, _ and -");
   Require(s.has_begin_s() == s.has_end_s(), path,
           where + "begin_s and end_s: give both, or none (the whole sequence)");
   Require(!s.has_begin_s() || (s.begin_s() >= 0 && s.end_s() > s.begin_s()), path,

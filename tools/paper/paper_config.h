@@ -8,7 +8,7 @@ namespace evit::paper {
 
 /// Reads config/paper.textproto. Paths to tracker settings and rig are made absolute (they are beside the
 /// file). Throws ConfigError naming file, key and remedy: unknown or missing key, an id or a sequence that
-/// occurs twice or is no file name, figures of what is not there, a clip that ends before it begins.
+/// occurs twice or is not a file name, figures of what is not there, a clip that ends before it begins.
 paper::Paper LoadPaper(const std::string& path);
 
 /// Every run's settings: methods, then those motion models that are not methods too.

@@ -51,7 +51,7 @@ TEST_F(PaperConfig, ErrorsNameFileAndKey) {
   ExpectError("seeds: 3", "seeds: 0", "seeds: 0 is out of range; allowed: 1 to 99");
   ExpectError("simulated_s: 10", "simulated_s: 1", "simulated_s");
   ExpectError("id: \"evt100\"", "id: \"evt300\"", "\"evt300\" is there twice");
-  ExpectError("id: \"evt100\"", "id: \"evt/100\"", "no file name");
+  ExpectError("id: \"evt100\"", "id: \"evt/100\"", "not a file name");
   ExpectError("fixed_rate_hz: 100", "fixed_rate_hz: 5000", "fixed_rate_hz");
   ExpectError("motion_model: CONSTANT_VELOCITY", "motion_model: 3",
               "PREVIOUS_POSE, CONSTANT_VELOCITY or IMU");

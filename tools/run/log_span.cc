@@ -69,7 +69,7 @@ LogSpan ReadLogSpan(const RunJob& job) {
   if (log.trailing_bytes() > 0 && !job.tolerate.truncated) {
     throw std::runtime_error(
         job.log + ": is truncated or damaged after " + std::to_string(log.entries().size()) +
-        " complete messages; make it again, or run what is whole with --allow-truncated");
+        " complete messages; make it again, or run the complete ones with --allow-truncated");
   }
   LogSpan span;
   span.lost_bytes = log.trailing_bytes();

@@ -10,7 +10,7 @@
 namespace evit::run {
 namespace {
 
-constexpr double kAbsurdNees = 25;  // of a degree of freedom: five sigma are no matter of the covariance
+constexpr double kAbsurdNees = 25;  // of a degree of freedom: five sigma are not the covariance's fault
 constexpr double kLateStart = 0.5;  // s: a first pose after that is worth telling
 
 void PrintLatency(const report::Report& report) {
@@ -90,7 +90,7 @@ void PrintSummary(const RunJob& job, const RunInputs& inputs, const report::Repo
     std::printf("left out for their stamps (too late, or far ahead): %.0f events, %.0f IMU samples\n",
                 untimely.events, untimely.imu);
   if (inputs.lost_bytes > 0)
-    std::printf("the log was cut off: its last %lld bytes are no whole message and were not played\n",
+    std::printf("the log was cut off: its last %lld bytes are not a whole message and were not played\n",
                 static_cast<long long>(inputs.lost_bytes));
   std::printf("results: %s/{trajectory.tum,smoothed.tum,covariance.csv,report.json,trajectory.png%s}\n",
               job.out.c_str(), scored ? ",consistency.png" : "");

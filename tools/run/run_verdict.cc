@@ -8,7 +8,7 @@
 namespace evit::run {
 namespace {
 
-constexpr double kMinTracked = 0.5;    // share of the time, below which a run is no success
+constexpr double kMinTracked = 0.5;    // share of the time, below which a run has failed
 constexpr double kMaxUntimely = 0.05;  // share of events or samples that may be left out for their stamps
 
 // Channels on which services heard a second sender, e.g. "EVENTS"; a single message may have been under way

@@ -18,7 +18,7 @@ Untimely UntimelyOf(const report::Report& report);
 /// Share of the time that was played, s, in which poses came, at most half a second apart.
 double TrackedShare(const Trajectory& poses, double seconds);
 
-/// Why the run is no success, for a person; empty where it is one. `report` has the final mode and the number
+/// Why the run failed, for a person; empty where it did not. `report` has the final mode and the number
 /// of keyframes; `reason` is the tracker's for its mode.
 std::string FailureOf(const report::Report& report, const std::string& reason, double tracked_share,
                       const Untimely& untimely);

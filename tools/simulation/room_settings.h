@@ -7,7 +7,7 @@ namespace evit::simulation {
 
 enum class RoomKind {
   kFurnished,
-  kPlain,  // hardly any texture: no posters, every surface of one grey, few things on tables and shelves
+  kPlain,  // almost no texture: no posters, every surface of one grey, few things on tables and shelves
 };
 
 struct RoomSettings {

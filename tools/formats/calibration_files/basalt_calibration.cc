@@ -38,7 +38,7 @@ double Mean(const json& three) {
 SE3 Pose(const json& T, const std::string& name) {
   const Eigen::Quaterniond q(T.at("qw").get<double>(), T.at("qx").get<double>(), T.at("qy").get<double>(),
                              T.at("qz").get<double>());
-  if (!(std::abs(q.norm() - 1) < 1e-3)) throw std::runtime_error(name + "'s quaternion is no rotation");
+  if (!(std::abs(q.norm() - 1) < 1e-3)) throw std::runtime_error(name + "'s quaternion is not a rotation");
   return {q.normalized(), {T.at("px").get<double>(), T.at("py").get<double>(), T.at("pz").get<double>()}};
 }
 
@@ -75,7 +75,8 @@ auto WithValue(const std::string& path, const Read& read) {
     const json whole = json::parse(file);
     return read(whole.contains("value0") ? whole.at("value0") : whole);
   } catch (const std::exception& error) {
-    throw std::runtime_error(path + ": is no calibration that can be read (Basalt's JSON): " + error.what());
+    throw std::runtime_error(path +
+                             ": is not a calibration that can be read (Basalt's JSON): " + error.what());
   }
 }
 

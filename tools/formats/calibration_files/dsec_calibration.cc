@@ -30,7 +30,7 @@ std::vector<double> Numbers(const Yaml& yaml, const std::string& path, const std
   std::vector<double> numbers(found->second.size());
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     if (!ParseNumber(found->second[k], &numbers[k]))
-      throw std::runtime_error(path + ": " + key + ": " + found->second[k] + " is no number");
+      throw std::runtime_error(path + ": " + key + ": " + found->second[k] + " is not a number");
   }
   if (numbers.size() != n) {
     throw std::runtime_error(path + ": " + key + " has " + std::to_string(numbers.size()) +
@@ -57,7 +57,7 @@ Rig ReadDsecCalibration(const std::string& path, const std::string& side) {
                             d = Numbers(yaml, path, camera + "distortion_coeffs", 4),
                             size = Numbers(yaml, path, camera + "resolution", 2);
   if (!(f[0] > 0 && f[1] > 0 && size[0] >= 16 && size[1] >= 16 && size[0] <= 8192 && size[1] <= 8192))
-    throw std::runtime_error(path + ": " + camera + "camera_matrix or resolution is no camera's");
+    throw std::runtime_error(path + ": " + camera + "camera_matrix or resolution makes no camera");
   rig.camera.width = static_cast<int>(size[0]);
   rig.camera.height = static_cast<int>(size[1]);
   rig.camera.fx = f[0], rig.camera.fy = f[1], rig.camera.cx = f[2], rig.camera.cy = f[3];

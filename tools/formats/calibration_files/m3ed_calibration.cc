@@ -26,7 +26,7 @@ SE3 Transform(const H5File& file, const std::string& name) {
   const Eigen::Matrix4d T = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(m.data());
   const Eigen::Matrix3d R = T.topLeftCorner<3, 3>();
   if (!((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3) || R.determinant() < 0)
-    file.Open(name).Fail("is no rigid transformation");
+    file.Open(name).Fail("is not a rigid transformation");
   return SE3(T);
 }
 

@@ -110,7 +110,7 @@ cv::Mat DecodeDepth(const StoredPicture& picture, double units_per_metre, const 
                             ? Decompress(picture, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR, name)
                             : Unpack(picture, EncodingOf(picture, name), name);
   if (image.type() != CV_16UC1 && image.type() != CV_32FC1) {
-    throw std::runtime_error(name + ": is no depth image: expected one channel of 16 bits" +
+    throw std::runtime_error(name + ": is not a depth image: expected one channel of 16 bits" +
                              (image.depth() == CV_8U ? ", not of 8 (a picture for people?)" : ""));
   }
   cv::Mat metres;

@@ -48,7 +48,7 @@ TEST(DecodePicture, DepthIsInMetres) {
   EXPECT_EQ(depth.type(), CV_32FC1);
   EXPECT_FLOAT_EQ(depth.at<float>(0, 0), 1);
   EXPECT_EQ(depth.at<float>(0, 1), 0);
-  // Floats are metres whatever the scale; what is not finite is no depth.
+  // Floats are metres whatever the scale; what is not finite is not a depth.
   StoredPicture floats = Raw("32FC1", {0, 0, 0, 0x40, 0, 0, 0xc0, 0x7f});
   EXPECT_FLOAT_EQ(DecodeDepth(floats, 5000, "").at<float>(0, 0), 2);
   EXPECT_EQ(DecodeDepth(floats, 5000, "").at<float>(0, 1), 0);

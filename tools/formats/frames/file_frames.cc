@@ -113,7 +113,7 @@ bool FileFrames::TakeList(const std::string& list, const std::vector<std::string
   while (table.Next()) {
     const std::string stamp(table.Word());
     double number = 0;
-    if (!ParseNumber(stamp, &number)) table.Fail("\"" + stamp + "\" is no stamp");
+    if (!ParseNumber(stamp, &number)) table.Fail("\"" + stamp + "\" is not a stamp");
     if (!table.more()) {
       ++nameless;
       rows.emplace_back("", stamp);

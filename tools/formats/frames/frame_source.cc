@@ -20,7 +20,7 @@ std::unique_ptr<FrameSource> OpenFrames(const std::string& path, const FrameSour
       return std::make_unique<RosFrames>(std::move(bag), options.topic, options.depth);
   }
   if (!options.topic.empty())
-    throw std::runtime_error(path + ": is no bag of ROS, a topic (" + options.topic + ") means nothing");
+    throw std::runtime_error(path + ": is not a ROS bag, a topic (" + options.topic + ") means nothing");
   return std::make_unique<FileFrames>(OpenFileTree(path), path, options.depth);
 }
 

@@ -59,7 +59,7 @@ H5EventReader::H5EventReader(const H5File& file, const H5EventLayout& layout)
 std::uint16_t H5EventReader::Pixel(const H5Rows& rows, double value) const {
   if (value != std::floor(value))
     rows.Fail("event " + std::to_string(at_) + " ff.: pixel " + std::to_string(value) +
-              " is no whole number: undistorted coordinates? The tracker needs the sensor's own pixels");
+              " is not a whole number: undistorted coordinates? The tracker needs the sensor's own pixels");
   return value >= 0 && value < kOutside ? static_cast<std::uint16_t>(value) : kOutside;
 }
 

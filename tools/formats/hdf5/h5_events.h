@@ -22,7 +22,7 @@ class H5EventReader {
   H5EventReader(const H5File& file, const H5EventLayout& layout);
 
   /// Replaces `events` by the next ones; false at the end. Pixels that do not fit 16 bits become 65535;
-  /// events whose stamp is no time are left out and counted.
+  /// events whose stamp is not a time are left out and counted.
   bool Read(EventArray* events);
   double share() const { return size_ > 0 ? static_cast<double>(at_) / static_cast<double>(size_) : 1; }
   std::int64_t n_invalid() const { return n_invalid_; }

@@ -109,7 +109,7 @@ TEST_F(H5RecordingTest, WhatHasNoSingleMeaningIsRefusedByName) {
   make({1, 0, -1}, H5T_STD_I8LE, {0, 1, 2}, H5T_STD_I64LE, {1, 2, 3});
   ExpectRefused("0 and -1 both occur");
   make({1, 0, 1}, H5T_STD_U8LE, {0, 1.5, 2}, H5T_STD_I64LE, {1, 2, 3});
-  ExpectRefused("is no whole number");
+  ExpectRefused("is not a whole number");
   make({1, 0, 1}, H5T_STD_U8LE, {0, 1, 2}, H5T_IEEE_F32LE, {0.5, 1, 20});
   ExpectRefused("32-bit floats");
 }

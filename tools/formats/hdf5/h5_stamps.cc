@@ -22,7 +22,7 @@ Utime ReadOffset(const H5Rows& rows, double micros) {
   double scale = micros;
   if (size >= 1e14) scale = size >= 1e17 ? 1e-3 : 1;  // dates in us or ns
   if (size >= 1e9 && size < 1e10) scale = 1e6;        // in s
-  if (!(size * scale < kLatestTime)) rows.Fail("is no time");
+  if (!(size * scale < kLatestTime)) rows.Fail("is not a time");
   return std::llround(value * scale);
 }
 
@@ -34,7 +34,7 @@ H5Stamps::H5Stamps(TimeUnit unit, const H5Rows* offset) : micros_(MicrosPerUnit(
 
 Utime H5Stamps::FromDouble(double value) {
   const double micros = value * micros_;
-  return std::abs(micros) < kLatestTime ? Finish(std::llround(micros)) : kNoTime;  // NaN is none either
+  return std::abs(micros) < kLatestTime ? Finish(std::llround(micros)) : kNoTime;  // NaN is not a time either
 }
 
 void H5Stamps::FromIntegers(std::vector<Utime>* stamps) {

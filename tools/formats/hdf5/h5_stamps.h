@@ -13,7 +13,7 @@ namespace evit::formats {
 /// continued before `t_offset` is added.
 class H5Stamps {
  public:
-  /// `offset`: t_offset's dataset, or null. Throws std::runtime_error where it is no one time.
+  /// `offset`: t_offset's dataset, or null. Throws std::runtime_error where it is not one time.
   H5Stamps(TimeUnit unit, const H5Rows* offset);
 
   /// One stamp of a float; kNoTime where it is none.

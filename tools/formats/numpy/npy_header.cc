@@ -59,7 +59,7 @@ std::vector<std::uint64_t> Numbers(const NpyInput& input, const std::string& tex
   static const std::regex kNumber("[0-9]+");
   std::vector<std::uint64_t> numbers;
   for (std::sregex_iterator at(text.begin(), text.end(), kNumber); at != std::sregex_iterator(); ++at) {
-    if (at->length() > kMaxDigits) input.Fail("the header's shape is no array's: it is damaged");
+    if (at->length() > kMaxDigits) input.Fail("the header's shape cannot be an array's: it is damaged");
     numbers.push_back(std::stoull(at->str()));
   }
   return numbers;
@@ -125,7 +125,7 @@ bool IsNpy(const std::string& path) {
 
 NpyHeader ReadNpyHeader(NpyInput* input) {
   const std::uint8_t* begin = input->Take(8);
-  if (std::memcmp(begin, kMagic, kMagicSize) != 0) input->Fail("is no numpy array");
+  if (std::memcmp(begin, kMagic, kMagicSize) != 0) input->Fail("is not a numpy array");
   const bool long_size = begin[6] >= 2;
   const std::uint8_t* bytes = input->Take(long_size ? 4 : 2);
   const std::uint32_t size = long_size ? As<std::uint32_t>(bytes, false) : As<std::uint16_t>(bytes, false);

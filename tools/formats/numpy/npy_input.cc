@@ -35,7 +35,8 @@ Archive OpenZip(const std::string& path) {
   int error = 0;
   Archive archive(zip_open(path.c_str(), ZIP_RDONLY, &error), zip_discard);
   if (archive == nullptr)
-    throw std::runtime_error(path + ": is no whole archive (cut off or damaged); copy or download it again");
+    throw std::runtime_error(path +
+                             ": is not a complete archive (cut off or damaged); copy or download it again");
   return archive;
 }
 

@@ -53,7 +53,7 @@ class NpyEvents : public EventSource {
     const double value = NpyNumber(field.numbers, at);
     if (!(std::abs(value) < 1e15) || value != std::floor(value))
       throw std::runtime_error(name_ + ": " + what + " is " + std::to_string(value) +
-                               ", which is no whole number");
+                               ", which is not a whole number");
     return static_cast<std::int64_t>(value);
   }
   // False where it is none.

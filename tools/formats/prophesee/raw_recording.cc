@@ -101,8 +101,9 @@ RawRecording::RawRecording(const std::string& path) : path_(path) {
   } else {
     const std::uint8_t* type = file.Take(2, "event type and size");
     if ((type[0] != 0x00 && type[0] != 0x0C) || type[1] != 8) {
-      file.Fail("its header names no encoding (% evt, % format), and it is no DAT file of CD events (type " +
-                std::to_string(type[0]) + ", " + std::to_string(type[1]) + " bytes)");
+      file.Fail(
+          "its header names no encoding (% evt, % format), and it is not a DAT file of CD events (type " +
+          std::to_string(type[0]) + ", " + std::to_string(type[1]) + " bytes)");
     }
     encoding_ = Encoding::kDat;
     info_.format = "Metavision DAT";

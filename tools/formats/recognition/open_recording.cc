@@ -29,7 +29,7 @@ constexpr char kKnown[] =
 std::unique_ptr<Recording> OpenFile(const std::string& path, const std::string& events) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file");
   if (!std::filesystem::is_regular_file(path))
-    throw std::runtime_error(path + ": is no file of events; " + kKnown);
+    throw std::runtime_error(path + ": is not a file of events; " + kKnown);
   if (RawRecording::Recognises(path)) return std::make_unique<RawRecording>(path);
   if (Aedat4Recording::Recognises(path)) return std::make_unique<Aedat4Recording>(path);
   if (AedatRecording::Recognises(path)) return std::make_unique<AedatRecording>(path);
@@ -45,7 +45,7 @@ std::unique_ptr<MessageStore> OpenRos2Bags(const std::vector<std::string>& paths
   for (const std::string& path : paths) {
     auto bag = OpenRos2Bag(path);
     if (!bag && bags.empty()) return nullptr;
-    if (!bag) throw std::runtime_error(path + ": is no bag of ROS 2, unlike " + paths.front());
+    if (!bag) throw std::runtime_error(path + ": is not a ROS 2 bag, unlike " + paths.front());
     bags.push_back(std::move(bag));
   }
   return bags.size() == 1 ? std::move(bags.front()) : std::make_unique<BagFolder>(std::move(bags));
@@ -61,7 +61,7 @@ std::unique_ptr<MessageStore> OpenBags(const std::vector<std::string>& paths) {
   };
   if (!is_ros1(paths.front())) return OpenRos2Bags(paths);
   for (const std::string& path : paths) {
-    if (!is_ros1(path)) throw std::runtime_error(path + ": is no bag of ROS 1, unlike " + paths.front());
+    if (!is_ros1(path)) throw std::runtime_error(path + ": is not a ROS 1 bag, unlike " + paths.front());
   }
   return std::make_unique<RosbagStore>(paths);
 }

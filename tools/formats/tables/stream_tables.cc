@@ -23,7 +23,7 @@ std::vector<ImuSample> ReadImuTable(const std::string& path, DropCounts* dropped
 Trajectory ReadPoseTable(const std::string& path, DropCounts* dropped) {
   const TableSample sample = SampleTable(path, kPoseLayout);
   if (sample.rows.empty() || sample.rows.front().size() < 8)
-    throw std::runtime_error(path + ": is no trajectory; expected " + kPoseLayout);
+    throw std::runtime_error(path + ": is not a trajectory; expected " + kPoseLayout);
   const PoseColumns columns = PoseColumnsOf(sample);
   const TimeUnit unit = UnitOfStamps(sample, columns.time, kSlowestPose);
   TableReader rows(path, kPoseLayout);
