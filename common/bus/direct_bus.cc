@@ -18,8 +18,8 @@ constexpr std::size_t kSmall = 4096;  // bytes: copying costs less than memory o
 constexpr std::size_t kMaxSpare = 64;
 constexpr char kSelfTest[] = "LCM_SELF_TEST";  // LCM's own name for it
 
-/// Sends as LCM does, and receives by the thread that polls: no thread of LCM's between kernel and handler, no
-/// copy of large messages.
+/// Sends as LCM does, and receives by the thread that polls: no thread of LCM's between kernel and handler,
+/// no copy of large messages.
 class DirectBus : public Bus {
  public:
   explicit DirectBus(const std::string& url)

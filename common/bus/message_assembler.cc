@@ -71,8 +71,8 @@ bool MessageAssembler::AddFragment(std::uint64_t sender, const std::uint8_t* dat
 
   auto found = std::find_if(assemblies_.begin(), assemblies_.end(),
                             [sender](const Assembly& a) { return a.sender == sender; });
-  if (found != assemblies_.end() && (found->number != number || found->size != whole ||
-                                     found->has.size() != n_fragments)) {
+  if (found != assemblies_.end() &&
+      (found->number != number || found->size != whole || found->has.size() != n_fragments)) {
     assemblies_.erase(found);  // the rest of that message is lost
     found = assemblies_.end();
   }

@@ -111,7 +111,8 @@ TEST_F(MessageAssemblerTest, MemoryCanBeTakenOver) {
   const std::string first = Bytes(kFirst), second = Bytes(kSecond);
   MessageAssembler::Message message;
   ASSERT_EQ(Add(first), "");
-  ASSERT_TRUE(assembler_.Add(1, reinterpret_cast<const std::uint8_t*>(second.data()), second.size(), &message));
+  ASSERT_TRUE(
+      assembler_.Add(1, reinterpret_cast<const std::uint8_t*>(second.data()), second.size(), &message));
   EXPECT_TRUE(message.fragmented);
   std::vector<std::uint8_t> memory;
   assembler_.ExchangeMemory(&memory);

@@ -13,7 +13,8 @@ namespace evit {
 /// A socket of LCM's multicast group, read by the thread that asks.
 class UdpReceiver {
  public:
-  /// `receive_buffer`: bytes to ask of the kernel. Throws std::runtime_error where the group cannot be joined.
+  /// `receive_buffer`: bytes to ask of the kernel. Throws std::runtime_error where the group cannot be
+  /// joined.
   UdpReceiver(const LcmUrl& url, int receive_buffer);
   ~UdpReceiver();
   UdpReceiver(const UdpReceiver&) = delete;
