@@ -49,7 +49,9 @@ bool Validate(const map_points_t& m, std::string* why) {
       .That(m.map_size >= 0, "map_size is negative")
       .That(m.n <= m.n_visible && m.n_visible <= m.map_size, "n <= n_visible <= map_size does not hold")
       .That(in_map, "an id is outside the map")
-      .Finite("xyz", m.xyz)
+      .Finite("x", m.x.data(), m.x.size())
+      .Finite("y", m.y.data(), m.y.size())
+      .Finite("z", m.z.data(), m.z.size())
       .ok();
 }
 

@@ -79,7 +79,7 @@ TEST(Validate, RefusesViewsWithoutSizeOrDepth) {
 }
 
 TEST(Validate, RefusesMapQueriesAndAnswersThatCannotBe) {
-  ExpectRefused<map_points_t>("xyz", [](auto* m) { m->xyz[1][1] = std::numeric_limits<float>::quiet_NaN(); });
+  ExpectRefused<map_points_t>("y", [](auto* m) { m->y[1] = std::numeric_limits<float>::quiet_NaN(); });
   ExpectRefused<map_points_t>("id", [](auto* m) { m->id[0] = 1000; });
   ExpectRefused<map_points_t>("n_visible", [](auto* m) { m->n_visible = 1; });
   ExpectRefused<map_query_t>("model", [](auto* m) { m->camera.model = "fisheye"; });

@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/simd/lanes.h"
 #include "common/time/time_order.h"
 
 namespace evit {
 namespace {
+
+EVIT_MULTIVERSION Utime LongestStep(const Utime* t, std::size_t n) {
+  Utime longest = 0;
+  for (std::size_t k = 1; k < n; ++k) longest = std::max(longest, t[k] - t[k - 1]);
+  return longest;
+}
 
 struct Event {
   Utime t;
@@ -31,6 +38,7 @@ void StreamGuard::Sort(EventArray* events) {
 
 EventArray StreamGuard::CutAtJump(EventArray* events) {
   EventArray rest;
+  if (LongestStep(events->t.data(), events->size()) <= AheadGuard<Packet>::kAhead) return rest;
   for (std::size_t k = 1; k < events->size(); ++k) {
     if (events->t[k] - events->t[k - 1] <= AheadGuard<Packet>::kAhead) continue;
     const auto at = static_cast<std::ptrdiff_t>(k);

@@ -2,10 +2,29 @@
 
 #include <algorithm>
 
+#include "common/simd/lanes.h"
+
 namespace evit {
 namespace {
 
 constexpr std::size_t kCompactAt = 1 << 16;  // events: dropping them from the front costs a move of the rest
+
+EVIT_MULTIVERSION bool Increases(const Utime* t, std::size_t n) {
+  Utime decrease = 0;
+  for (std::size_t i = 1; i < n; ++i) decrease |= t[i] - t[i - 1];
+  return decrease >= 0;  // its sign is set where one of them is negative
+}
+
+EVIT_MULTIVERSION std::uint16_t Largest(const std::uint16_t* values, std::size_t n) {
+  std::uint16_t largest = 0;
+  for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, values[i]);
+  return largest;
+}
+
+EVIT_MULTIVERSION void AddOffset(Utime offset, const Utime* __restrict t, std::size_t n,
+                                 Utime* __restrict out) {
+  for (std::size_t i = 0; i < n; ++i) out[i] = t[i] + offset;
+}
 
 void EraseFront(EventArray* events, std::size_t n) {
   const auto count = static_cast<std::ptrdiff_t>(n);
@@ -59,20 +78,15 @@ bool StreamMerger::AddEvents(const EventArray& events, Utime watermark) {
 // Nothing in it to be left out, as good as always.
 bool StreamMerger::IsPlain(const EventArray& events) const {
   if (events.size() == 0 || events.t.front() + offset_ < Watermark()) return false;
-  bool sorted = true;
-  for (std::size_t i = 1; i < events.size(); ++i) sorted &= events.t[i - 1] <= events.t[i];
-  std::uint16_t x = 0, y = 0;
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    x = std::max(x, events.x[i]);
-    y = std::max(y, events.y[i]);
-  }
-  return sorted && x < width_ && y < height_;
+  const std::size_t n = events.size();
+  return Increases(events.t.data(), n) && Largest(events.x.data(), n) < width_ &&
+         Largest(events.y.data(), n) < height_;
 }
 
 void StreamMerger::Append(const EventArray& events) {
   const std::size_t begin = events_.size(), n = events.size();
   events_.t.resize(begin + n);
-  for (std::size_t i = 0; i < n; ++i) events_.t[begin + i] = events.t[i] + offset_;
+  AddOffset(offset_, events.t.data(), n, events_.t.data() + begin);
   events_.x.insert(events_.x.end(), events.x.begin(), events.x.end());
   events_.y.insert(events_.y.end(), events.y.begin(), events.y.end());
   events_.p.insert(events_.p.end(), events.p.begin(), events.p.end());

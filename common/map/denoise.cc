@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "common/map/near_points.h"
 #include "common/simd/lanes.h"
 
 namespace evit {
@@ -19,24 +19,6 @@ namespace {
 struct NearSums {
   alignas(64) float count[kLanes] = {}, weight[kLanes] = {}, mean[3][kLanes] = {}, square[6][kLanes] = {};
 };
-
-// Places of those of n points, a multiple of kLanes, that lie within the radius of p; returns how many.
-EVIT_MULTIVERSION std::size_t Within(const float* x, const float* y, const float* z, std::size_t n,
-                                     const float* p, float radius2, std::int32_t* places) {
-  std::size_t found = 0;
-  for (std::size_t k = 0; k < n; k += kLanes) {
-    alignas(64) std::int32_t near[kLanes];
-    for (int l = 0; l < kLanes; ++l) {
-      const float dx = x[k + l] - p[0], dy = y[k + l] - p[1], dz = z[k + l] - p[2];
-      near[l] = dx * dx + (dy * dy + dz * dz) <= radius2 ? 1 : 0;
-    }
-    for (int l = 0; l < kLanes; ++l) {  // no branch: hard to predict
-      places[found] = static_cast<std::int32_t>(k) + l;
-      found += static_cast<std::size_t>(near[l]);
-    }
-  }
-  return found;
-}
 
 // e^(-d2 / (2 sigma^2)) within two sigmas, as the eighth power of a polynomial (error below 1e-5). `rate`: 1
 // / (16 sigma^2).
@@ -65,7 +47,17 @@ EVIT_MULTIVERSION void Sum(const float* x, const float* y, const float* z, const
   *sums = s;
 }
 
-double Total(const float* lanes) { return std::accumulate(lanes, lanes + kLanes, 0.0); }
+// Over the lanes, each in their order; all at once, as each waits for the addition before.
+struct NearTotals {
+  explicit NearTotals(const NearSums& sums) {
+    for (int l = 0; l < kLanes; ++l) {
+      count += sums.count[l], weight += sums.weight[l];
+      for (int k = 0; k < 3; ++k) mean[k] += sums.mean[k][l];
+      for (int k = 0; k < 6; ++k) square[k] += sums.square[k][l];
+    }
+  }
+  double count = 0, weight = 0, mean[3] = {}, square[6] = {};
+};
 
 /// Points by cells of a grid as wide as the radius, in the order of their cells.
 class Neighbours {
@@ -80,7 +72,7 @@ class Neighbours {
   }
 
   /// Calls visit(index) for each point, cell by cell, and gathers what is around a cell once for all its
-  /// points.
+  /// points. Once.
   template <typename Visit>
   void ForEachPoint(Visit visit) {
     for (std::size_t k = 0; k < cells_.size(); ++k) {
@@ -92,51 +84,39 @@ class Neighbours {
   /// Sums over all within the radius of point `self`, of the cell that ForEachPoint() is at, itself left out,
   /// with Gaussian weights of half the radius; over a crowd's even part.
   NearSums Near(std::size_t self) {
-    const Eigen::Vector3f& p = points_[self];
-    places_.resize(x_.size() + 1);
-    const std::size_t n =
-        Within(x_.data(), y_.data(), z_.data(), x_.size(), p.data(), radius2_, places_.data());
-    const std::size_t room = (n + kLanes - 1) / kLanes * kLanes;
-    for (std::vector<float>* v : {&dx_, &dy_, &dz_, &dn_}) v->assign(room, 0);
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::int32_t at = places_[k];
-      dx_[k] = x_[at] - p.x(), dy_[k] = y_[at] - p.y(), dz_[k] = z_[at] - p.z();
-      dn_[k] = static_cast<std::size_t>(indices_[at]) == self ? 0 : counts_[at];
-    }
+    FindNear(around_, points_[self].data(), radius2_, static_cast<std::int32_t>(self), &near_);
     NearSums sums;
-    Sum(dx_.data(), dy_.data(), dz_.data(), dn_.data(), room, 0.25F / radius2_, &sums);
+    Sum(near_.dx.data(), near_.dy.data(), near_.dz.data(), near_.count.data(), near_.room, 0.25F / radius2_,
+        &sums);
     return sums;
   }
 
  private:
-  static constexpr std::ptrdiff_t kCrowd = 96;  // points in three cells
+  static constexpr std::size_t kCrowd = 96;  // points in three cells
 
   void Gather(const std::array<std::int64_t, 3>& at) {
-    for (std::vector<float>* v : {&x_, &y_, &z_, &counts_}) v->clear();
-    indices_.clear();
+    around_.Clear();
+    auto row = rows_.begin();
     for (std::int64_t x = -1; x <= 1; ++x) {
-      for (std::int64_t y = -1; y <= 1; ++y) {
-        // Three cells along z follow each other.
+      for (std::int64_t y = -1; y <= 1; ++y, ++row) {
+        // Three cells along z follow each other. Cells come in order, so that each of the nine rows moves on
+        // through the points, and none has to be searched for.
         const std::uint64_t first = Key({at[0] + x, at[1] + y, at[2] - 1}),
                             last = Key({at[0] + x, at[1] + y, at[2] + 1});
-        const auto begin =
-            std::lower_bound(cells_.begin(), cells_.end(), std::make_pair(first, std::size_t{0}));
-        const auto end = std::lower_bound(begin, cells_.end(), std::make_pair(last + 1, std::size_t{0}));
+        while (row->begin < cells_.size() && cells_[row->begin].first < first) ++row->begin;
+        row->end = std::max(row->begin, row->end);
+        while (row->end < cells_.size() && cells_[row->end].first <= last) ++row->end;
         // A crowd is asked in part: the time must not grow with its square.
-        const auto step = 1 + (end - begin) / kCrowd;
-        for (auto it = begin; it < end; it += std::min(step, end - it)) {
-          Add(sorted_[static_cast<std::size_t>(it - cells_.begin())], static_cast<std::int32_t>(it->second),
-              static_cast<float>(step));
+        const std::size_t step = 1 + (row->end - row->begin) / kCrowd;
+        for (std::size_t k = row->begin; k < row->end; k += step) {
+          const Eigen::Vector3f& q = sorted_[k];
+          around_.Add(q.x(), q.y(), q.z(), static_cast<float>(step),
+                      static_cast<std::int32_t>(cells_[k].second));
         }
       }
     }
-    while (x_.size() % kLanes != 0) Add({x_[0], y_[0], z_[0]}, indices_[0], 0);  // stands for none
-  }
-
-  void Add(const Eigen::Vector3f& q, std::int32_t index, float count) {
-    x_.push_back(q.x()), y_.push_back(q.y()), z_.push_back(q.z());
-    counts_.push_back(count);
-    indices_.push_back(index);
+    while (around_.size() % kLanes != 0)
+      around_.Add(around_.x[0], around_.y[0], around_.z[0], 0, around_.index[0]);  // stands for none
   }
 
   std::array<std::int64_t, 3> Cell(const Eigen::Vector3f& p) const {
@@ -158,24 +138,25 @@ class Neighbours {
   double inverse_;
   float radius2_;
   std::vector<std::pair<std::uint64_t, std::size_t>> cells_;
-  std::vector<Eigen::Vector3f> sorted_;    // points in the order of cells_: what is gathered lies together
-  std::vector<float> x_, y_, z_, counts_;  // around the cell that ForEachPoint() is at
-  std::vector<std::int32_t> indices_, places_;
-  std::vector<float> dx_, dy_, dz_, dn_;  // near a point, relative to it
+  std::vector<Eigen::Vector3f> sorted_;  // points in the order of cells_: what is gathered lies together
+  struct Row {
+    std::size_t begin = 0, end = 0;  // of the points in three cells
+  };
+  std::array<Row, 9> rows_;  // around the cell that ForEachPoint() is at
+  Surroundings around_;      // the points in them
+  NearPoints near_;
 };
 
 // Where point `self` moves; `n`: points within the radius, itself included.
 Eigen::Vector3f OntoLine(Neighbours* neighbours, const Eigen::Vector3f& p, std::size_t self,
                          std::int64_t* n) {
-  const NearSums near = neighbours->Near(self);
-  *n = 1 + std::llround(Total(near.count));
-  const double weight = 1 + Total(near.weight);  // p itself lies at its own origin
-  const Eigen::Vector3d mean =
-      Eigen::Vector3d(Total(near.mean[0]), Total(near.mean[1]), Total(near.mean[2])) / weight;
+  const NearTotals near(neighbours->Near(self));
+  *n = 1 + std::llround(near.count);
+  const double weight = 1 + near.weight;  // p itself lies at its own origin
+  const Eigen::Vector3d mean = Eigen::Vector3d(near.mean) / weight;
   Eigen::Matrix3d square;
-  const float(*const s)[kLanes] = near.square;
-  square << Total(s[0]), Total(s[1]), Total(s[2]), Total(s[1]), Total(s[3]), Total(s[4]), Total(s[2]),
-      Total(s[4]), Total(s[5]);
+  const double* const s = near.square;
+  square << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
   const Eigen::Matrix3d covariance = square / weight - mean * mean.transpose();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(covariance);

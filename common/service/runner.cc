@@ -1,5 +1,7 @@
 #include "common/service/runner.h"
 
+#include <malloc.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -13,6 +15,14 @@
 namespace evit {
 
 namespace {
+
+// What a service frees it needs again for the next message or keyframe: megabytes that glibc would give back
+// to the kernel, which would clear them each time.
+void KeepFreedMemory() {
+  constexpr int kBytes = 32 << 20;
+  (void)::mallopt(M_MMAP_THRESHOLD, kBytes);
+  (void)::mallopt(M_TRIM_THRESHOLD, kBytes);
+}
 
 constexpr char kDefaultUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 
@@ -46,6 +56,7 @@ std::unique_ptr<Bus> OpenServiceBus(const ServiceOptions& options) {
 }
 
 int RunService(Service* service, Bus* bus) {
+  KeepFreedMemory();
   const StopSignals signals;
   while (!signals.received() && !service->done()) {
     bus->Poll(service->poll_timeout_ms());

@@ -51,19 +51,37 @@ void ActivePoints::Merge(const std::vector<std::int32_t>& ids, const std::vector
   std::swap(points_, merged);
 }
 
-std::vector<ProjectedPoint> ActivePoints::Seen(const SE3& T_map_body, double margin_px) const {
+std::vector<ProjectedPoint> ActivePoints::SeenOf(const PointArrays& points,
+                                                 const std::vector<std::int32_t>& places,
+                                                 const SE3& T_map_body, double margin_px) const {
   const ViewProjector projector(camera_, T_camera_body_ * T_map_body.Inverse(), margin_px, 0, kAnyDepth);
-  std::vector<std::int32_t> places(ids_.size());
-  std::iota(places.begin(), places.end(), 0);
-  std::vector<ProjectedPoint> seen(ids_.size() + 1);
-  seen.resize(projector.Project(points_, places.data(), 0, places.size(), seen.data()));
+  std::vector<ProjectedPoint> seen(places.size() + 1);
+  seen.resize(projector.Project(points, places.data(), 0, places.size(), seen.data()));
   return seen;
 }
 
+std::vector<ProjectedPoint> ActivePoints::Seen(const SE3& T_map_body, double margin_px) const {
+  std::vector<std::int32_t> places(ids_.size());
+  std::iota(places.begin(), places.end(), 0);
+  return SeenOf(points_, places, T_map_body, margin_px);
+}
+
 void ActivePoints::Retain(const std::vector<SE3>& T_map_body, double margin_px) {
+  // The poses see much the same: each looks at those only that no other has seen.
   std::vector<std::uint8_t> keep(ids_.size(), 0);
+  std::vector<std::int32_t> places(ids_.size());
+  std::iota(places.begin(), places.end(), 0);
+  PointArrays rest = points_;
   for (const SE3& pose : T_map_body) {
-    for (const ProjectedPoint& p : Seen(pose, margin_px)) keep[p.id] = 1;
+    for (const ProjectedPoint& p : SeenOf(rest, places, pose, margin_px)) keep[p.id] = 1;
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (keep[places[k]] != 0) continue;
+      rest.Set(n, rest.At(k));
+      places[n++] = places[k];
+    }
+    places.resize(n);
+    rest.Resize(n);
   }
   std::size_t kept = 0;
   for (std::size_t k = 0; k < ids_.size(); ++k) {

@@ -38,6 +38,10 @@ class ActivePoints {
   /// Points in view; their `id` is the place in points_.
   std::vector<ProjectedPoint> Seen(const SE3& T_map_body, double margin_px) const;
 
+  /// Of some of them: those at these places.
+  std::vector<ProjectedPoint> SeenOf(const PointArrays& points, const std::vector<std::int32_t>& places,
+                                     const SE3& T_map_body, double margin_px) const;
+
   Camera camera_;
   SE3 T_camera_body_;
   std::uint64_t seed_;

@@ -38,6 +38,7 @@ class Depths {
         samples_(
             SampleBeside(BatchAlignment(settings, field, 0, points, T_map_body), points.local(), kBeside)) {}
 
+  const BesideSamples& samples() const { return samples_; }
   bool inside(std::size_t k) const { return samples_.inside[k] != 0; }
   float u(std::size_t k) const { return samples_.u[k]; }  // pixels
   float v(std::size_t k) const { return samples_.v[k]; }
@@ -53,16 +54,26 @@ class Depths {
   BesideSamples samples_;
 };
 
+double SignificanceOf(const Depths& depths, const Camera& camera, std::size_t n) {
+  PatchSums sums(camera);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (depths.inside(k)) sums.Add(depths.u(k), depths.v(k), depths.At(k));
+  }
+  return sums.Significance();
+}
+
 }  // namespace
 
 double AlignmentSignificance(const AlignmentSettings& settings, const SurfaceField& field,
                              const AlignmentPoints& points, const SE3& T_map_body) {
+  return SignificanceOf(Depths(settings, field, points, T_map_body), settings.camera(), points.size());
+}
+
+AlignmentVerdict JudgeAlignment(const AlignmentSettings& settings, const SurfaceField& field,
+                                const AlignmentPoints& points, const SE3& T_map_body) {
   const Depths depths(settings, field, points, T_map_body);
-  PatchSums sums(settings.camera());
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (depths.inside(k)) sums.Add(depths.u(k), depths.v(k), depths.At(k));
-  }
-  return sums.Significance();
+  return {QualityOf(depths.samples(), points.size()),
+          SignificanceOf(depths, settings.camera(), points.size())};
 }
 
 double SignificanceOver(const AlignmentSettings& settings, const SurfaceField& field,

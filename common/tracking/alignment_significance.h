@@ -18,7 +18,16 @@ namespace evit {
 double AlignmentSignificance(const AlignmentSettings& settings, const SurfaceField& field,
                              const AlignmentPoints& points, const SE3& T_map_body);
 
-/// The same of pose `a` against pose `b`: how surely `a` explains the events better. Negative: `b` does.
+/// MeasureAlignment(), ten pixels beside, and AlignmentSignificance() in one: half the cost.
+struct AlignmentVerdict {
+  AlignmentQuality quality;
+  double significance = 0;
+};
+AlignmentVerdict JudgeAlignment(const AlignmentSettings& settings, const SurfaceField& field,
+                                const AlignmentPoints& points, const SE3& T_map_body);
+
+/// The significance of pose `a` against pose `b`: how surely `a` explains the events better. Negative: `b`
+/// does.
 double SignificanceOver(const AlignmentSettings& settings, const SurfaceField& field,
                         const AlignmentPoints& points, const SE3& a, const SE3& b);
 

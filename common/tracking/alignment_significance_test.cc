@@ -46,6 +46,20 @@ TEST(AlignmentSignificance, OfEventsThatHaveNothingToDoWithTheMapIsChance) {
   EXPECT_NEAR(squares / kTrials, 1, 0.5);
 }
 
+TEST(AlignmentSignificance, AVerdictIsBothFigures) {
+  const AlignmentSettings settings = synthetic::Alignment();
+  const SurfaceField field(synthetic::DrawSurface(settings, synthetic::RoomPoints(), SE3()), 1);
+  const AlignmentPoints points(synthetic::RoomPoints());
+  const AlignmentVerdict verdict = JudgeAlignment(settings, field, points, SE3());
+  const AlignmentQuality quality = MeasureAlignment(settings, field, points, SE3());
+  EXPECT_EQ(verdict.significance, AlignmentSignificance(settings, field, points, SE3()));
+  EXPECT_GT(verdict.significance, 0);
+  EXPECT_EQ(verdict.quality.n_points, quality.n_points);
+  EXPECT_EQ(verdict.quality.mean_value, quality.mean_value);
+  EXPECT_EQ(verdict.quality.shifted_value, quality.shifted_value);
+  EXPECT_EQ(verdict.quality.inlier_share, quality.inlier_share);
+}
+
 TEST(AlignmentSignificance, WithoutPointsInViewIsZero) {
   const AlignmentSettings settings = synthetic::Alignment();
   const SurfaceField field(synthetic::DrawSurface(settings, synthetic::RoomPoints(), SE3()), 1);

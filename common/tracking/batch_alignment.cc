@@ -84,16 +84,18 @@ EVIT_ALWAYS_INLINE void AddAll(const BatchAlignment& c, const PointArrays& point
 constexpr auto kPlumbBob = Camera::Model::kPlumbBob;
 constexpr auto kEquidistant = Camera::Model::kEquidistant;
 
-EVIT_MULTIVERSION void PlumbBobTerm(const BatchAlignment& c, const PointArrays& p, AlignmentSums* sums) {
+EVIT_MULTIVERSION_WIDE void PlumbBobTerm(const BatchAlignment& c, const PointArrays& p, AlignmentSums* sums) {
   AddAll<kPlumbBob, true>(c, p, sums);
 }
-EVIT_MULTIVERSION void PlumbBobCost(const BatchAlignment& c, const PointArrays& p, AlignmentSums* sums) {
+EVIT_MULTIVERSION_WIDE void PlumbBobCost(const BatchAlignment& c, const PointArrays& p, AlignmentSums* sums) {
   AddAll<kPlumbBob, false>(c, p, sums);
 }
-EVIT_MULTIVERSION void EquidistantTerm(const BatchAlignment& c, const PointArrays& p, AlignmentSums* sums) {
+EVIT_MULTIVERSION_WIDE void EquidistantTerm(const BatchAlignment& c, const PointArrays& p,
+                                            AlignmentSums* sums) {
   AddAll<kEquidistant, true>(c, p, sums);
 }
-EVIT_MULTIVERSION void EquidistantCost(const BatchAlignment& c, const PointArrays& p, AlignmentSums* sums) {
+EVIT_MULTIVERSION_WIDE void EquidistantCost(const BatchAlignment& c, const PointArrays& p,
+                                            AlignmentSums* sums) {
   AddAll<kEquidistant, false>(c, p, sums);
 }
 void Copy(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, float* to_R, float* to_t) {

@@ -115,25 +115,27 @@ EVIT_ALWAYS_INLINE void Curvature(const BatchAlignment& c, const PointArrays& po
   }
 }
 
-EVIT_MULTIVERSION void PlumbBobBeside(const BatchAlignment& c, const PointArrays& p, float shift,
-                                      BesideSamples* out) {
+EVIT_MULTIVERSION_WIDE void PlumbBobBeside(const BatchAlignment& c, const PointArrays& p, float shift,
+                                           BesideSamples* out) {
   Beside<Model::kPlumbBob>(c, p, shift, out);
 }
-EVIT_MULTIVERSION void EquidistantBeside(const BatchAlignment& c, const PointArrays& p, float shift,
-                                         BesideSamples* out) {
+EVIT_MULTIVERSION_WIDE void EquidistantBeside(const BatchAlignment& c, const PointArrays& p, float shift,
+                                              BesideSamples* out) {
   Beside<Model::kEquidistant>(c, p, shift, out);
 }
-EVIT_MULTIVERSION void PlumbBobPlane(const BatchAlignment& c, const PointArrays& p, PlaneSamples* out) {
+EVIT_MULTIVERSION_WIDE void PlumbBobPlane(const BatchAlignment& c, const PointArrays& p, PlaneSamples* out) {
   Plane<Model::kPlumbBob>(c, p, out);
 }
-EVIT_MULTIVERSION void EquidistantPlane(const BatchAlignment& c, const PointArrays& p, PlaneSamples* out) {
+EVIT_MULTIVERSION_WIDE void EquidistantPlane(const BatchAlignment& c, const PointArrays& p,
+                                             PlaneSamples* out) {
   Plane<Model::kEquidistant>(c, p, out);
 }
-EVIT_MULTIVERSION void PlumbBobCurvature(const BatchAlignment& c, const PointArrays& p, CurvatureSums* sums) {
+EVIT_MULTIVERSION_WIDE void PlumbBobCurvature(const BatchAlignment& c, const PointArrays& p,
+                                              CurvatureSums* sums) {
   Curvature<Model::kPlumbBob>(c, p, sums);
 }
-EVIT_MULTIVERSION void EquidistantCurvature(const BatchAlignment& c, const PointArrays& p,
-                                            CurvatureSums* sums) {
+EVIT_MULTIVERSION_WIDE void EquidistantCurvature(const BatchAlignment& c, const PointArrays& p,
+                                                 CurvatureSums* sums) {
   Curvature<Model::kEquidistant>(c, p, sums);
 }
 

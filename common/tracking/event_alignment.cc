@@ -28,14 +28,11 @@ AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const Surface
   return term;
 }
 
-AlignmentQuality MeasureAlignment(const AlignmentSettings& settings, const SurfaceField& field,
-                                  const AlignmentPoints& points, const SE3& T_map_body, double shift) {
-  const BesideSamples samples = SampleBeside(BatchAlignment(settings, field, 0, points, T_map_body),
-                                             points.local(), static_cast<float>(shift));
+AlignmentQuality QualityOf(const BesideSamples& samples, std::size_t n) {
   AlignmentQuality quality;
   double sum = 0, shifted = 0;
   int inliers = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
+  for (std::size_t k = 0; k < n; ++k) {
     if (samples.inside[k] == 0) continue;
     ++quality.n_points;
     sum += samples.value[k];
@@ -48,6 +45,13 @@ AlignmentQuality MeasureAlignment(const AlignmentSettings& settings, const Surfa
     quality.inlier_share = static_cast<double>(inliers) / quality.n_points;
   }
   return quality;
+}
+
+AlignmentQuality MeasureAlignment(const AlignmentSettings& settings, const SurfaceField& field,
+                                  const AlignmentPoints& points, const SE3& T_map_body, double shift) {
+  return QualityOf(SampleBeside(BatchAlignment(settings, field, 0, points, T_map_body), points.local(),
+                                static_cast<float>(shift)),
+                   points.size());
 }
 
 }  // namespace evit

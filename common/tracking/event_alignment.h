@@ -61,6 +61,9 @@ struct AlignmentQuality {
   /// 0: no better than elsewhere; towards 1: the points lie on edges and nothing around does.
   double contrast() const { return shifted_value > 0 ? 1.0 - mean_value / shifted_value : 0.0; }
 };
+struct BesideSamples;
+/// The same of n points that have been sampled (batch_samples.h).
+AlignmentQuality QualityOf(const BesideSamples& samples, std::size_t n);
 AlignmentQuality MeasureAlignment(const AlignmentSettings& settings, const SurfaceField& field,
                                   const AlignmentPoints& points, const SE3& T_map_body, double shift = 10);
 

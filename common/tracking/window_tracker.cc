@@ -112,11 +112,12 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
   const SlidingWindow::Summary solve = window_.Solve();
   const WindowNode& newest = window_.nodes().back();
   out->iterations = solve.iterations;
-  out->quality = MeasureAlignment(alignment_, *newest.field, newest.points, newest.state.T_map_body);
+  const AlignmentVerdict verdict =
+      JudgeAlignment(alignment_, *newest.field, newest.points, newest.state.T_map_body);
+  out->quality = verdict.quality;
 
   Result result;
-  const double significance =
-      AlignmentSignificance(alignment_, *newest.field, newest.points, newest.state.T_map_body);
+  const double significance = verdict.significance;
   if (newest.points.size() > 0) AddSignificance(significance);
   const std::string wrong = newest.points.size() > 0 ? WhyFalseStart(keyframe.t) : "";
   result.coasting = WhyCoast(keyframe, out->quality, significance);

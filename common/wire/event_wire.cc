@@ -49,6 +49,11 @@ std::uint8_t* Put(Number value, std::uint8_t* to) {
   return to;
 }
 
+EVIT_MULTIVERSION void AddTimes(Utime first, const std::int32_t* __restrict dt, std::size_t n,
+                                Utime* __restrict t) {
+  for (std::size_t i = 0; i < n; ++i) t[i] = first + dt[i];
+}
+
 EVIT_MULTIVERSION void PutTimes(const Utime* t, std::size_t n, std::uint8_t* to) {
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint32_t swapped = __builtin_bswap32(static_cast<std::uint32_t>(t[i] - t[0]));
@@ -116,8 +121,9 @@ event_packet_t EmptyPacket(Utime watermark, std::int64_t epoch, std::int64_t seq
 
 void AppendEvents(const event_packet_t& packet, EventArray* events) {
   const auto n = static_cast<std::size_t>(packet.n);
-  events->t.reserve(events->size() + n);
-  for (const std::int32_t dt : packet.dt_us) events->t.push_back(packet.utime + dt);
+  const std::size_t begin = events->size();
+  events->t.resize(begin + n);
+  AddTimes(packet.utime, packet.dt_us.data(), n, events->t.data() + begin);
   events->x.insert(events->x.end(), packet.x.begin(), packet.x.end());
   events->y.insert(events->y.end(), packet.y.begin(), packet.y.end());
   events->p.insert(events->p.end(), packet.polarity.begin(), packet.polarity.end());

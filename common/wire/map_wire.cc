@@ -36,18 +36,18 @@ map_points_t ToMessage(const VisibilityAnswer& answer, const PointMap& map) {
   m.n_visible = answer.n_visible;
   m.n = static_cast<std::int32_t>(answer.ids.size());
   m.id = answer.ids;
-  m.xyz.reserve(answer.ids.size());
-  for (const std::int32_t id : answer.ids) {
-    const Eigen::Vector3f& p = map.points[id];
-    m.xyz.push_back({p.x(), p.y(), p.z()});
+  for (std::vector<float>* v : {&m.x, &m.y, &m.z}) v->resize(answer.ids.size());
+  for (std::size_t k = 0; k < answer.ids.size(); ++k) {
+    const Eigen::Vector3f& p = map.points[answer.ids[k]];
+    m.x[k] = p.x(), m.y[k] = p.y(), m.z[k] = p.z();
   }
   return m;
 }
 
 std::vector<Eigen::Vector3f> PointsOf(const map_points_t& m) {
   std::vector<Eigen::Vector3f> points;
-  points.reserve(m.xyz.size());
-  for (const auto& p : m.xyz) points.emplace_back(p.data());
+  points.reserve(m.x.size());
+  for (std::size_t k = 0; k < m.x.size(); ++k) points.emplace_back(m.x[k], m.y[k], m.z[k]);
   return points;
 }
 

@@ -40,6 +40,7 @@ FrameBuilder::FrameBuilder(Bus* bus, const Channels& channels, const Settings& s
 template <typename Message>
 void FrameBuilder::OnData(const std::uint8_t* data, std::size_t size) {
   Message message;
+  if constexpr (std::is_same_v<Message, event_packet_t>) std::swap(message, spare_);
   if (!DecodeChecked(data, size, &message)) {
     std::is_same_v<Message, event_packet_t> ? inbox_.CountInvalidEvents() : inbox_.CountInvalidImu();
     return;
@@ -81,8 +82,9 @@ void FrameBuilder::Work() {
   while (true) {
     while (auto keyframe = builder_.Next()) Send(std::move(*keyframe));
     if (builder_.awaited_feedback() >= 0) break;  // what is in the inbox waits, and with it the sender
-    if (const auto item = inbox_.Take()) {
+    if (auto item = inbox_.Take()) {
       Feed(*item);
+      if (auto* const packet = std::get_if<event_packet_t>(&item->message)) spare_ = std::move(*packet);
     } else if (!flushed_ && inbox_.ended()) {
       guard_.Flush([&](const EventArray& good, Utime known) { builder_.AddEvents(good, known); },
                    [&](const ImuSample& good) { builder_.AddImu(good); });

@@ -55,6 +55,7 @@ class FrameBuilder : public Service {
   StatusReporter status_;
   SequenceCounter modes_;
   StreamInbox inbox_;
+  event_packet_t spare_{};  // memory of one that has been used
   std::optional<CreditSender> credit_;
   KeyframeBuilder builder_;
   KeyframeOutbox outbox_;

@@ -53,7 +53,7 @@ TEST_F(MapServerTest, AnswersAsTheLibraryDoes) {
   EXPECT_EQ(m.query_seq, 3);
   EXPECT_EQ(m.query_epoch, 5);
   for (int k = 0; k < m.n; ++k) {
-    for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(m.xyz[k][axis], map_.points[m.id[k]][axis]);
+    EXPECT_EQ(Eigen::Vector3f(m.x[k], m.y[k], m.z[k]), map_.points[m.id[k]]);
   }
 }
 

@@ -68,7 +68,7 @@ class MapClientTest : public ::testing::Test {
     answer.n = answer.n_visible = 2;
     answer.map_size = 10;
     answer.id = {3, 4};
-    answer.xyz = {{1, 2, 3}, {4, 5, 6}};
+    answer.x = {1, 4}, answer.y = {2, 5}, answer.z = {3, 6};
     std::vector<std::uint8_t> bytes;
     EncodeTo(answer, &bytes);
     ASSERT_TRUE(client_.OnAnswer(bytes.data(), bytes.size(), now_));

@@ -105,7 +105,7 @@ inline map_points_t Sample<map_points_t>(int n) {
   m.n_visible = n + 10;
   m.n = n;
   for (int i = 0; i < n; ++i) {
-    m.xyz.push_back({1.0F * static_cast<float>(i), 2.0F, 3.0F});
+    m.x.push_back(static_cast<float>(i)), m.y.push_back(2), m.z.push_back(3);
     m.id.push_back(3 * i);
   }
   return m;

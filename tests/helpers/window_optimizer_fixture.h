@@ -70,7 +70,7 @@ class WindowOptimizerTest : public OptimizerPeer {
     answer.epoch = 5;
     answer.seq = answers_++;
     for (std::size_t k = 0; k < room_.size(); ++k) {
-      answer.xyz.push_back({room_[k].x(), room_[k].y(), room_[k].z()});
+      answer.x.push_back(room_[k].x()), answer.y.push_back(room_[k].y()), answer.z.push_back(room_[k].z());
       answer.id.push_back(static_cast<std::int32_t>(k));
     }
     answer.n = answer.n_visible = static_cast<std::int32_t>(room_.size());

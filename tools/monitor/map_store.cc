@@ -31,7 +31,7 @@ void MapStore::Add(const map_points_t& answer) {
     const auto id = static_cast<std::size_t>(answer.id[i]);
     if (answer.id[i] < 0 || id >= known_.size() || known_[id]) continue;
     known_[id] = true;
-    points_.emplace_back(answer.xyz[i][0], answer.xyz[i][1], answer.xyz[i][2]);
+    points_.emplace_back(answer.x[i], answer.y[i], answer.z[i]);
   }
 }
 

@@ -117,7 +117,7 @@ TEST_F(PipelineWatchTest, AMapPointLiesWhereTheEstimateProjectsIt) {
   camera.cy = 30;
   watch_.mount()->Set(camera, SE3(Eigen::Quaterniond::Identity(), {0, 0, 0.5}));
   map_points_t answer = Sample<map_points_t>(2);
-  answer.xyz = {{1, 2, 5.5F}, {100, 2, 5.5F}};  // straight ahead, and outside the image
+  answer.x = {1, 100}, answer.y = {2, 2}, answer.z = {5.5F, 5.5F};  // straight ahead, and outside the image
   Send(channels_.map_points, answer);
   Send(channels_.window_state, MakeWindow(1000, SE3()));  // somebody estimates
   Send(channels_.keyframe, MakeKeyframe(2000));
