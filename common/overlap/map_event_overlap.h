@@ -44,6 +44,11 @@ struct MapEventOverlap {
     const double chance = point_share_by_chance();
     return chance < 1 ? (point_share() - chance) / (1 - chance) : 0;
   }
+  /// The same of the pixels that fired: 0: the map explains none of them better than chance, 1: all.
+  double event_kappa() const {
+    const double chance = event_share_by_chance();
+    return chance < 1 ? (event_share() - chance) / (1 - chance) : 0;
+  }
   Eigen::Vector2d mean_offset() const {
     return points_on_events > 0 ? Eigen::Vector2d(offset_sum / static_cast<double>(points_on_events))
                                 : Eigen::Vector2d::Zero();

@@ -207,4 +207,14 @@ std::vector<Misplacement> FindMisplacements(const Rig& rig, const Trajectory& bo
   return found;
 }
 
+MapEventOverlap MeasureCorrected(const Rig& rig, const Trajectory& body, const std::vector<MapView>& views,
+                                 const Misplacement& misplacement) {
+  MapEventOverlap overlap;
+  for (const MapView& view : views) {
+    const Placed placed = Place(rig, body, view, misplacement.kind, misplacement.value);
+    overlap.Add(MeasureOverlap(placed.camera, placed.T_map_camera, view));
+  }
+  return overlap;
+}
+
 }  // namespace evit

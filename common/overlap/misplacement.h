@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "common/overlap/map_views.h"
+#include "common/overlap/map_event_overlap.h"
 
 namespace evit {
 
@@ -41,5 +41,10 @@ double PointShare(const Rig& rig, const Trajectory& body, const std::vector<MapV
 std::vector<Misplacement> FindMisplacements(const Rig& rig, const Trajectory& body,
                                             const std::vector<MapView>& views,
                                             const MisplacementOptions& options = {});
+
+/// How map and events lie on each other once the misplacement is corrected, in all views. A correction that
+/// only some points suggest, by chance, does not explain what fires.
+MapEventOverlap MeasureCorrected(const Rig& rig, const Trajectory& body, const std::vector<MapView>& views,
+                                 const Misplacement& misplacement);
 
 }  // namespace evit

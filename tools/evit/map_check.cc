@@ -32,6 +32,9 @@ nlohmann::json CheckJson(const mapping::MapCheck& check) {
                      {"points_on_events", check.moments[k].point_share()},
                      {"events_on_map", check.moments[k].event_share()}});
   }
+  nlohmann::json findings = nlohmann::json::array();
+  for (const mapping::CheckFinding& f : check.findings)
+    findings.push_back({{"severity", f.is_error ? "error" : "warning"}, {"what", f.text}});
   nlohmann::json json = {{"points_on_events", o.point_share()},
                          {"points_on_events_by_chance", o.point_share_by_chance()},
                          {"events_on_map", o.event_share()},
@@ -43,7 +46,8 @@ nlohmann::json CheckJson(const mapping::MapCheck& check) {
                          {"points_on_events_of_fits_sample", check.point_share},
                          {"fits", fits},
                          {"views", views},
-                         {"findings", check.findings}};
+                         {"moments_planned", check.moments_planned},
+                         {"findings", findings}};
   if (check.has_imu) json["tilt_deg"] = check.tilt_deg;
   return json;
 }
@@ -71,6 +75,7 @@ void AddMapCheck(CLI::App* map) {
   command->footer(
       "Example: evit map check --log desk.lcmlog --map desk.pcd --rig rig.textproto --truth "
       "desk.lcmlog.truth.tum --out check\n"
+      "Exit code: 0 nothing looks wrong, 2 an error, 3 warnings only.\n"
       "In the pictures pixels that fired are grey, points of the map on them blue, others orange.");
   command->callback([o] {
     mapping::MapCheck check;
@@ -82,6 +87,7 @@ void AddMapCheck(CLI::App* map) {
     if (!o->out.empty()) mapping::WriteCheckPictures(o->out, o->inputs.rig, check);
     std::printf("%s", o->json ? (CheckJson(check).dump(2) + "\n").c_str()
                               : mapping::CheckText(o->inputs, check).c_str());
+    if (!check.findings.empty()) throw CLI::RuntimeError(check.findings.front().is_error ? 2 : 3);
   });
 }
 

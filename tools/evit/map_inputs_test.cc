@@ -5,6 +5,7 @@
 #include <fstream>
 #include <opencv2/imgproc.hpp>
 
+#include "common/files/decimal_time.h"
 #include "tests/helpers/painted_pictures.h"
 #include "tests/helpers/ros_bags.h"
 #include "tests/helpers/run_evit.h"
@@ -99,6 +100,37 @@ TEST_F(MapInputsTest, AZipOfPicturesWithStampsAndPosesAtAnotherRate) {
   ExpectGoodMap(outcome);
   EXPECT_THAT(outcome.output, HasSubstr("2 of 16 pictures have no pose"));
   EXPECT_THAT(outcome.output, HasSubstr("1 of 14 pictures cannot be read"));
+}
+
+// VECtor's left_camera folder: begin and end of each exposure in a list beside the pictures. Its camera has
+// 12 bits here, and one dark picture that would look like one of 10.
+TEST_F(MapInputsTest, AFolderWithTheExposuresInAListAndSixteenBits) {
+  std::string list = "# Left Regular Camera's timestamp data\n# start and end of the exposure time[s]\n";
+  for (std::size_t k = 0; k < painted_->pictures.size(); ++k) {
+    const std::string name = StampName(painted_->poses[k].t);
+    const Utime end = painted_->poses[k].t + 10'000;
+    list += name.substr(0, name.size() - 4) + " " + DecimalSeconds(end) + "\n";
+    cv::Mat levels;
+    painted_->pictures[k].convertTo(levels, CV_16U, k == 5 ? 3.9 : 16);
+    Write("desk1.synced.left_camera/" + name, PaintedPictures::Png(levels));
+  }
+  Write("desk1.synced.left_camera/timestamp.txt", list);
+  WriteTum(File("poses.tum"), Dense({}));
+  ExpectGoodMap(Build("--images " + File("desk1.synced.left_camera") + Calibrated()));
+}
+
+// Written by a driver that did not fill in the colours.
+TEST_F(MapInputsTest, MosaicsOfAColourSensor) {
+  for (std::size_t k = 0; k < painted_->pictures.size(); ++k) {
+    cv::Mat mosaic = painted_->pictures[k].clone();
+    for (int row = 0; row < mosaic.rows; ++row) {
+      for (int column = row % 2; column < mosaic.cols; column += 2) mosaic.at<std::uint8_t>(row, column) /= 2;
+    }
+    Write("bayer/" + StampName(painted_->poses[k].t), PaintedPictures::Png(mosaic));
+  }
+  const test::ProgramOutcome outcome = Build("--images " + File("bayer") + Calibrated());
+  ExpectGoodMap(outcome);
+  EXPECT_THAT(outcome.output, HasSubstr("raw mosaics"));
 }
 
 TEST_F(MapInputsTest, ABagOfRosWithGreyColourOrCompressedImages) {

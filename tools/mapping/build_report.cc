@@ -46,6 +46,10 @@ std::vector<std::string> NotesOn(const FrameList& list, const ReadFrames& frames
         " ms apart: between them the motion is taken to be even, which a hand's is not; poses every "
         "20 ms would do");
   }
+  if (frames.mosaic) {
+    notes.push_back(
+        "the pictures are raw mosaics of a colour sensor (Bayer): neighbouring pixels are averaged");
+  }
   if (frames.unreadable > 0) {
     notes.push_back(std::to_string(frames.unreadable) + " of " + std::to_string(frames.read) +
                     " pictures cannot be read, and are left out; the first: " + frames.first_unreadable);

@@ -7,8 +7,11 @@
 
 namespace evit::mapping {
 
-/// What the figures say is wrong, most important first, and what mends it.
-std::vector<std::string> Findings(const MapCheckInputs& inputs, const MapCheck& check);
+/// What the figures say is wrong, errors first, and what mends it.
+std::vector<CheckFinding> Findings(const MapCheckInputs& inputs, const MapCheck& check);
+
+/// The likeliest first: of two that fit alike, the one with fewer unknowns.
+void SortByMerit(std::vector<Misplacement>* fits);
 
 /// A misplacement as "the events are 12.0 ms late", ...
 std::string Describe(const Misplacement& fit);

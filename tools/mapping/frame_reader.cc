@@ -7,7 +7,7 @@
 
 #include "common/mapping/rectifier.h"
 #include "common/parallel/parallel_for.h"
-#include "tools/formats/frames/decode_picture.h"
+#include "tools/formats/frames/picture_style.h"
 
 namespace evit::mapping {
 namespace {
@@ -24,16 +24,23 @@ void RequireSize(const cv::Mat& image, const Camera& camera, const std::string& 
                            "; give the calibration of this camera, scaled to the pictures' size");
 }
 
-// Cameras compress contrast by their gamma, and rooms differ: as low as it takes for a middling picture to
-// show edges as long as twice around it.
-double FindContrast(const std::vector<std::size_t>& indices, formats::FrameSource* source,
-                    const Camera& camera, const Rectifier& rectifier, const FrameReaderOptions& options) {
+// Spread evenly over all.
+std::vector<std::size_t> Samples(const std::vector<std::size_t>& indices) {
   const std::size_t n = std::min(kSamples, indices.size());
   std::vector<std::size_t> samples;
   for (std::size_t k = 0; k < n; ++k) samples.push_back(indices[(2 * k + 1) * indices.size() / (2 * n)]);
+  return samples;
+}
+
+// Cameras compress contrast by their gamma, and rooms differ: as low as it takes for a middling picture to
+// show edges as long as twice around it.
+double FindContrast(const std::vector<std::size_t>& samples, const formats::PictureStyle& style,
+                    formats::FrameSource* source, const Camera& camera, const Rectifier& rectifier,
+                    const FrameReaderOptions& options) {
+  const std::size_t n = samples.size();
   std::vector<cv::Mat> images(n);
   VisitPictures(
-      source, samples, options.threads,
+      source, samples, style, options.threads,
       [&](std::size_t k, const cv::Mat& image) {
         RequireSize(image, camera, source->frames()[samples[k]].name);
         images[k] = rectifier.Rectify(image);
@@ -67,7 +74,20 @@ std::size_t LeastEdges(const std::vector<std::vector<EdgePixel>>& edges, double 
 
 }  // namespace
 
-void VisitPictures(formats::FrameSource* source, const std::vector<std::size_t>& chosen, int threads,
+formats::PictureStyle FindStyle(formats::FrameSource* source, const std::vector<std::size_t>& chosen) {
+  std::vector<formats::StoredPicture> stored;
+  for (const std::size_t k : Samples(chosen)) {
+    try {
+      stored.push_back(source->Fetch(k));
+    } catch (const std::runtime_error&) {
+      continue;  // counted where all are read
+    }
+  }
+  return formats::StyleOf(stored);
+}
+
+void VisitPictures(formats::FrameSource* source, const std::vector<std::size_t>& chosen,
+                   const formats::PictureStyle& style, int threads,
                    const std::function<void(std::size_t, const cv::Mat&)>& work,
                    const std::function<void(std::size_t, const std::string&)>& unreadable) {
   const std::size_t at_once = 4 * static_cast<std::size_t>(threads);
@@ -87,7 +107,7 @@ void VisitPictures(formats::FrameSource* source, const std::vector<std::size_t>&
       if (stored[k].bytes.empty() && stored[k].encoding.empty()) return;  // as told above
       cv::Mat image;
       try {
-        image = formats::DecodeGrey(stored[k], source->frames()[chosen[begin + k]].name);
+        image = formats::DecodeGrey(stored[k], source->frames()[chosen[begin + k]].name, style);
       } catch (const std::runtime_error& error) {
         const std::lock_guard<std::mutex> lock(mutex);
         unreadable(begin + k, error.what());
@@ -109,9 +129,10 @@ ReadFrames ReadEdges(const FrameList& list, formats::FrameSource* source, const 
     frames.push_back(list.frames[k]);
     indices.push_back(list.frames[k].index);
   }
+  const formats::PictureStyle style = FindStyle(source, indices);
   EdgeDetectorOptions detector = options.edges;
   if (options.find_contrast) {
-    detector.sure_contrast = FindContrast(indices, source, camera, rectifier, options);
+    detector.sure_contrast = FindContrast(Samples(indices), style, source, camera, rectifier, options);
     detector.min_contrast = detector.sure_contrast / 2;
   }
   ReadFrames result;
@@ -119,7 +140,7 @@ ReadFrames ReadEdges(const FrameList& list, formats::FrameSource* source, const 
   std::mutex mutex;  // of progress
   std::size_t done = 0;
   VisitPictures(
-      source, indices, options.threads,
+      source, indices, style, options.threads,
       [&](std::size_t k, const cv::Mat& image) {
         RequireSize(image, camera, source->frames()[indices[k]].name);
         edges[k] = DetectEdges(rectifier.Rectify(image), rectifier.valid(), detector);
@@ -133,6 +154,7 @@ ReadFrames ReadEdges(const FrameList& list, formats::FrameSource* source, const 
   const std::size_t least = LeastEdges(edges, options.min_share_of_edges);
   result.read = frames.size();
   result.contrast = detector.sure_contrast;
+  result.mosaic = style.mosaic;
   for (std::size_t k = 0; k < frames.size(); ++k) {
     if (edges[k].size() < least) {
       ++result.poor;

@@ -8,6 +8,7 @@
 
 #include "common/mapping/edge_detector.h"
 #include "common/mapping/posed_edges.h"
+#include "tools/formats/frames/decode_picture.h"
 #include "tools/mapping/frame_list.h"
 
 namespace evit::mapping {
@@ -29,11 +30,16 @@ struct ReadFrames {
   std::size_t unreadable = 0;    // left out: damaged or cut off,
   std::string first_unreadable;  // this and why
   double contrast = 0;           // that edges were asked for; 0: none was looked for
+  bool mosaic = false;           // pictures were the raw mosaic of a colour sensor
 };
+
+/// What some pictures, spread over `chosen`, say of all.
+formats::PictureStyle FindStyle(formats::FrameSource* source, const std::vector<std::size_t>& chosen);
 
 /// Decodes pictures by several threads and calls work(k, picture) for the k-th of `chosen`, in any order.
 /// What decoding throws goes to unreadable(k, what).
-void VisitPictures(formats::FrameSource* source, const std::vector<std::size_t>& chosen, int threads,
+void VisitPictures(formats::FrameSource* source, const std::vector<std::size_t>& chosen,
+                   const formats::PictureStyle& style, int threads,
                    const std::function<void(std::size_t, const cv::Mat&)>& work,
                    const std::function<void(std::size_t, const std::string&)>& unreadable);
 

@@ -97,6 +97,15 @@ void CountCells(const PointMap& map, const Rig& rig, MapCheck* check) {
   }
 }
 
+// Instants at which PlanViews looks whether the map is in view.
+std::size_t CountMoments(const Trajectory& truth, const MapViewOptions& options) {
+  std::size_t n = 0;
+  SE3 pose;
+  for (Utime t = truth.front().t + options.longest; t + options.longest <= truth.back().t; t += options.step)
+    n += PoseAt(truth, t, &pose) ? 1 : 0;
+  return n;
+}
+
 std::string Span(Utime from, Utime to) {
   char text[80];
   std::snprintf(text, sizeof text, "%.3f to %.3f s", static_cast<double>(from) * 1e-6,
@@ -116,6 +125,7 @@ MapCheck CheckMap(const MapCheckInputs& inputs, const std::function<void(double)
   MapViewOptions options;
   options.step = std::max<Utime>(100'000, (truth.back().t - truth.front().t) / 100);
   check.views = PlanViews(index, rig, truth, options);
+  check.moments_planned = CountMoments(truth, options);
   LogPass pass(truth, &check.views);
   pass.Read(log, [&](double share) { progress(0.6 * share); });
   if (pass.n_events == 0) throw std::runtime_error(inputs.log + ": holds no events (channel EVENTS)");
@@ -124,8 +134,10 @@ MapCheck CheckMap(const MapCheckInputs& inputs, const std::function<void(double)
                              ", the events of " + inputs.log + " of " + Span(pass.first, pass.last) +
                              ": another recording's truth, or another clock");
   }
+  const auto before = check.views.size();
   const auto empty = [](const MapView& view) { return view.n_events == 0; };
   check.views.erase(std::remove_if(check.views.begin(), check.views.end(), empty), check.views.end());
+  check.moments_planned -= std::min(check.moments_planned, before - check.views.size());
   if (check.views.empty()) {
     throw std::runtime_error(
         inputs.map + ": at the poses of " + inputs.truth +
@@ -140,6 +152,8 @@ MapCheck CheckMap(const MapCheckInputs& inputs, const std::function<void(double)
   progress(0.7);
   check.point_share = PointShare(rig, truth, check.views);
   check.fits = FindMisplacements(rig, truth, check.views);
+  SortByMerit(&check.fits);
+  check.corrected = MeasureCorrected(rig, truth, check.views, check.fits.front());
   CountCells(index.map(), rig, &check);
   check.has_imu = pass.gravity.n() > 100;
   check.tilt_deg = check.has_imu ? pass.gravity.TiltDegrees() : 0;

@@ -129,9 +129,23 @@ TEST_F(PlanTest, MakesTheMapThatASequenceLacksOfItsPictures) {
   ASSERT_NE(import, jobs.end());
   const auto commands = import->prepare();
   ASSERT_EQ(commands.size(), 2U);
-  EXPECT_THAT(commands[1], ::testing::IsSupersetOf({std::string("build"), std::string("marker")}));
+  EXPECT_THAT(commands[1], ::testing::IsSupersetOf({std::string("build"), std::string("body")}));
   const auto camera = std::find(commands[1].begin(), commands[1].end(), "--camera");
   EXPECT_TRUE(std::filesystem::exists(*(camera + 1))) << *(camera + 1);
+}
+
+TEST_F(PlanTest, MakesAMapOfABagOfPictures) {
+  for (const char* end : {"left_event", "imu", "gt", "left_camera"})
+    folder_.Write("vector/robot_fast1.synced." + std::string(end) + ".bag", "x");
+  options_.vector = folder_ / "vector";
+  const auto jobs = JobsOf(MakePlan(options_));
+  const auto import =
+      std::find_if(jobs.begin(), jobs.end(), [](const PaperJob& j) { return j.id[0] == 'i'; });
+  ASSERT_NE(import, jobs.end());
+  const auto commands = import->prepare();
+  ASSERT_EQ(commands.size(), 2U);
+  EXPECT_THAT(commands[0], ::testing::Not(::testing::Contains(HasSubstr("left_camera"))));
+  EXPECT_THAT(commands[1], ::testing::Contains(folder_ / "vector/robot_fast1.synced.left_camera.bag"));
 }
 
 TEST_F(PlanTest, FindsBags) {

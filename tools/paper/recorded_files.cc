@@ -22,21 +22,22 @@ std::string FindMap(const std::string& folder, const paper::Sequence& sequence) 
   return "";
 }
 
-// What a map can be made of: pictures beside the events, with the marker body's poses.
+// What a map can be made of: pictures beside the events, as VECtor's files are named.
 void RequirePictures(const std::string& folder, const paper::Sequence& sequence, RecordedFiles* files) {
-  const std::string base = files->folder + "/" + sequence.name() + "1.synced.";
-  for (const std::string& path : {base + "left_camera", files->folder + "/left_camera"}) {
-    for (const std::string& pictures : {path + ".zip", path}) {
-      if (!files->folder.empty() && fs::exists(pictures)) files->pictures = pictures;
+  const fs::path place =
+      files->folder.empty() ? fs::path(files->bags.front()).parent_path() : fs::path(files->folder);
+  const std::string base = (place / (sequence.name() + "1.synced.left_camera")).string();
+  for (const std::string& path : {(place / "left_camera").string(), base}) {
+    for (const char* end : {".bag", "", ".zip"}) {
+      if (fs::exists(path + end)) files->pictures = path + end;
     }
   }
-  files->truth = base + "gt.txt";
   if (!files->pictures.empty()) return;
   throw std::runtime_error(
       folder + ": holds " + sequence.name() + " but no map of its scene: " + sequence.scene() +
       ".pcd, .ply or .txt is expected (z up, metres), or `map` in the configuration, or the "
       "left regular camera's pictures to make one of, in " +
-      base + "left_camera/ or .zip");
+      base + "/, .zip or .bag");
 }
 
 std::string FindPhotometricMap(const std::string& folder, const paper::Sequence& sequence) {

@@ -13,8 +13,7 @@ struct RecordedFiles {
   std::string folder;             // of VECtor's own files
   std::vector<std::string> bags;  // or these
   std::string map;                // empty: it is to be made of the pictures
-  std::string pictures;           // folder of the left regular camera's, where there is no map
-  std::string truth;              // poses of the marker body, where there is no map
+  std::string pictures;           // of the left regular camera: folder, archive or bag, where there is no map
   std::string photometric_map;    // empty: there is none
 };
 /// Nothing where the sequence is not below `folder` (in it, or in a folder of the sequence's name).

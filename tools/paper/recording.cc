@@ -133,15 +133,15 @@ Recording Recorded(const paper::Paper& config, const paper::Sequence& sequence,
     words.insert(words.end(), {"--seconds", Text(sequence.begin_s()) + ":" + Text(sequence.end_s())});
     r.source += ", " + Text(sequence.begin_s()) + " to " + Text(sequence.end_s()) + " s";
   }
-  std::vector<std::string> build{
-      "evit",       "map",    "build",    "--images",         files.pictures, "--poses", files.truth,
-      "--poses-of", "marker", "--camera", LeftCamera(config), "--out",        r.map};
   if (sequence.t_map_world_size() == 16) {
     std::string matrix;
     for (const double v : sequence.t_map_world()) matrix += (matrix.empty() ? "" : " ") + Text(v);
     words.insert(words.end(), {"--T-map-world", matrix});
-    build.insert(build.end(), {"--T-map-world", matrix});
   }
+  // The import leaves poses of the body in the map's frame.
+  const std::vector<std::string> build{
+      "evit",       "map",  "build",    "--images",         files.pictures, "--poses", r.truth,
+      "--poses-of", "body", "--camera", LeftCamera(config), "--out",        r.map};
   r.job.id = "import " + r.name;
   r.job.folder = folder;
   if (files.map.empty()) {

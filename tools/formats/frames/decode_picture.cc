@@ -80,29 +80,48 @@ cv::Mat Decompress(const StoredPicture& picture, int flags, const std::string& n
   return image;
 }
 
-// The upper eight bits; cameras of 10 and 12 bits leave those above empty.
-cv::Mat ToEightBits(const cv::Mat& image, const std::string& name) {
-  if (image.depth() == CV_8U) return image;
-  if (image.depth() != CV_16U) throw std::runtime_error(name + ": expected 8 or 16 bits per channel");
-  double most = 0;
-  cv::minMaxLoc(image.reshape(1), nullptr, &most);
-  const double full = most < 1024 ? 1023 : (most < 4096 ? 4095 : 65535);
-  cv::Mat bytes;
-  image.convertTo(bytes, CV_8U, 255 / full);
-  return bytes;
-}
-
 }  // namespace
 
-cv::Mat DecodeGrey(const StoredPicture& picture, const std::string& name) {
-  if (picture.encoding.empty())
-    return ToEightBits(Decompress(picture, cv::IMREAD_ANYDEPTH | cv::IMREAD_GRAYSCALE, name), name);
-  const Encoding& encoding = EncodingOf(picture, name);
-  const cv::Mat image = Unpack(picture, encoding, name);
-  if (encoding.to_grey < 0) return ToEightBits(image, name);
-  cv::Mat grey;
-  cv::cvtColor(image, grey, encoding.to_grey);
-  return ToEightBits(grey, name);
+cv::Mat DecodeLevels(const StoredPicture& picture, const std::string& name, bool* is_raw) {
+  cv::Mat levels;
+  if (picture.encoding.empty()) {
+    const int flags = is_raw == nullptr ? cv::IMREAD_GRAYSCALE : cv::IMREAD_ANYCOLOR;
+    levels = Decompress(picture, cv::IMREAD_ANYDEPTH | flags, name);
+    if (is_raw != nullptr) *is_raw = levels.channels() == 1;
+    if (levels.channels() == 3) cv::cvtColor(levels, levels, cv::COLOR_BGR2GRAY);
+  } else {
+    const Encoding& encoding = EncodingOf(picture, name);
+    levels = Unpack(picture, encoding, name);
+    if (is_raw != nullptr) *is_raw = encoding.to_grey < 0;
+    if (encoding.to_grey >= 0) cv::cvtColor(levels, levels, encoding.to_grey);
+  }
+  if (levels.type() != CV_8UC1 && levels.type() != CV_16UC1)
+    throw std::runtime_error(name + ": expected 8 or 16 bits per channel");
+  return levels;
+}
+
+double WhiteOf(const cv::Mat& levels) {
+  if (levels.depth() == CV_8U) return 255;
+  double most = 0;
+  cv::minMaxLoc(levels, nullptr, &most);
+  for (const int bits : {10, 12, 14}) {
+    const double white = (1 << bits) - 1;
+    if (most <= white) return white;
+  }
+  return 65535;
+}
+
+cv::Mat DecodeGrey(const StoredPicture& picture, const std::string& name, const PictureStyle& style) {
+  cv::Mat levels = DecodeLevels(picture, name);
+  if (style.mosaic) {
+    // Each pixel gets all four of a pattern in equal parts, wherever the pattern begins, and no edge moves.
+    const cv::Mat kernel = (cv::Mat_<float>(1, 3) << 0.25, 0.5, 0.25);
+    cv::sepFilter2D(levels, levels, -1, kernel, kernel, {-1, -1}, 0, cv::BORDER_REFLECT_101);
+  }
+  if (levels.depth() == CV_8U) return levels;
+  cv::Mat bytes;
+  levels.convertTo(bytes, CV_8U, 255 / (style.white > 255 ? style.white : WhiteOf(levels)));
+  return bytes;
 }
 
 cv::Mat DecodeDepth(const StoredPicture& picture, double units_per_metre, const std::string& name) {

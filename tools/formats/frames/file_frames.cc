@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
-#include "common/files/table_reader.h"
+#include "common/files/decimal_time.h"
 #include "common/text/natural_order.h"
 #include "common/text/words.h"
 
@@ -18,14 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLeastDigits = 10;  // of a stamp in a name: 000, 001, ... only count
-
-bool IsPicture(const std::string& name) {
-  const std::string lower = LowerCase(name);
-  for (const char* end : {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm"}) {
-    if (EndsWith(lower, end)) return true;
-  }
-  return false;
-}
+constexpr Utime kLeastStep = 5;           // from name to name, of whatever unit; less counts pictures
 
 std::string FolderOf(const std::string& name) { return fs::path(name).parent_path().generic_string(); }
 
@@ -40,6 +32,23 @@ std::string StampInName(const std::string& file) {
   const bool counts = number.find('.') == std::string::npos && number.size() < kLeastDigits;
   Utime t = 0;
   return counts || !ParseDecimalTime(number, TimeUnit::kNanoseconds, &t) ? "" : number;
+}
+
+// Of all pictures; none where one has none, or where they count: 0000000000, 0000000001, ... (KITTI).
+std::vector<std::string> StampsInNames(const std::vector<std::string>& files) {
+  std::vector<std::string> stamps;
+  bool counts = true;
+  Utime last = 0;
+  for (const std::string& file : files) {
+    stamps.push_back(StampInName(file));
+    if (stamps.back().empty()) return std::vector<std::string>(files.size());
+    Utime t = 0;
+    counts = counts && stamps.back().find('.') == std::string::npos &&
+             ParseDecimalTime(stamps.back(), TimeUnit::kMicroseconds, &t) &&
+             (stamps.size() == 1 || t - last < kLeastStep);
+    last = t;
+  }
+  return counts && files.size() > 1 ? std::vector<std::string>(files.size()) : stamps;
 }
 
 // The pictures of the only folder that has any; those beside the tree's root come first.
@@ -71,28 +80,44 @@ std::vector<std::string> PicturesOf(const FileTree& tree, const std::string& pat
   return chosen->second;
 }
 
+// Names that lists of pictures usually have. A list of the other side's pictures is not meant.
+std::vector<std::string> ListsFor(const std::string& folder, bool depth) {
+  std::vector<std::string> lists = {depth ? "depth.txt" : "rgb.txt",
+                                    "images.txt",
+                                    "timestamp.txt",
+                                    "image_timestamps.txt",
+                                    "timestamps.txt",
+                                    "times.txt",
+                                    "data.csv"};
+  const std::string lower = LowerCase(folder);
+  const bool left = lower.find("right") == std::string::npos, right = lower.find("left") == std::string::npos;
+  for (const std::string side : {left ? "left" : "", right ? "right" : ""}) {
+    if (side.empty()) continue;
+    lists.push_back(side + "_images.txt");                 // UZH-FPV
+    lists.push_back("image_timestamps_" + side + ".txt");  // TUM-VIE
+  }
+  return lists;
+}
+
 }  // namespace
 
 FileFrames::FileFrames(std::unique_ptr<FileTree> tree, const std::string& path, bool depth)
     : tree_(std::move(tree)) {
-  const std::vector<std::string> pictures = PicturesOf(*tree_, path, depth);
-  const std::string folder = FolderOf(pictures.front());
-  const std::string inside = folder.empty() ? "" : folder + "/", above = FolderOf(folder);
-  const std::string name_of_folder =
+  PictureFolder pictures;
+  pictures.pictures = PicturesOf(*tree_, path, depth);
+  pictures.folder = FolderOf(pictures.pictures.front());
+  const std::string& folder = pictures.folder;
+  pictures.name =
       fs::path(folder.empty() ? fs::weakly_canonical(path).generic_string() : folder).filename().string();
-  const char* lists[] = {depth ? "depth.txt" : "rgb.txt",
-                         "images.txt",
-                         "image_timestamps.txt",
-                         "timestamps.txt",
-                         "times.txt",
-                         "data.csv"};
-  for (const std::string& place :
-       {inside, folder.empty() ? std::string("../") : above + (above.empty() ? "" : "/")}) {
-    for (const char* list : lists) {
-      if (tree_->Has(place + list) && TakeList(place + list, pictures, name_of_folder)) return;
+  const std::vector<std::string> stamps = StampsInNames(pictures.pictures);
+  pictures.stamped = !stamps.front().empty();
+  const std::string above = folder.empty() ? "../" : (FolderOf(folder).empty() ? "" : FolderOf(folder) + "/");
+  for (const std::string& place : {folder.empty() ? "" : folder + "/", above}) {
+    for (const std::string& list : ListsFor(pictures.name, depth)) {
+      if (tree_->Has(place + list) && TakeList(place + list, pictures)) return;
     }
   }
-  for (const std::string& picture : pictures) Add(picture, StampInName(picture));
+  for (std::size_t k = 0; k < stamps.size(); ++k) Add(pictures.pictures[k], stamps[k]);
 }
 
 void FileFrames::Add(const std::string& file, const std::string& stamp) {
@@ -101,51 +126,12 @@ void FileFrames::Add(const std::string& file, const std::string& stamp) {
 }
 
 // False where the list is about other pictures.
-bool FileFrames::TakeList(const std::string& list, const std::vector<std::string>& pictures,
-                          const std::string& name_of_folder) {
-  const std::vector<std::uint8_t> bytes = tree_->Read(list);
+bool FileFrames::TakeList(const std::string& name, const PictureFolder& pictures) {
+  const std::vector<std::uint8_t> bytes = tree_->Read(name);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  TableReader table(text, tree_->PathOf(list), "stamp name");
-  const std::set<std::string> known(pictures.begin(), pictures.end());
-  const std::string folder = FolderOf(pictures.front()), beside = FolderOf(list);
-  std::vector<std::pair<std::string, std::string>> rows;  // file, stamp
-  std::size_t nameless = 0, elsewhere = 0;
-  while (table.Next()) {
-    const std::string stamp(table.Word());
-    double number = 0;
-    if (!ParseNumber(stamp, &number)) table.Fail("\"" + stamp + "\" is not a stamp");
-    if (!table.more()) {
-      ++nameless;
-      rows.emplace_back("", stamp);
-      continue;
-    }
-    // Names are given from the list's folder (TUM, RPG), or from the pictures'. Colour and depth often have
-    // files of the same names.
-    const fs::path name{std::string(table.Word())};
-    const std::string in_folder = name.parent_path().filename().string();
-    const std::string file = (fs::path(folder) / name.filename()).lexically_normal().generic_string();
-    const bool other = beside != folder && !in_folder.empty() && in_folder != name_of_folder;
-    if (other || known.count(file) == 0) {
-      ++elsewhere;
-      continue;
-    }
-    rows.emplace_back(file, stamp);
-  }
-  if (rows.empty()) return false;
-  const std::string path = tree_->PathOf(list);
-  if (nameless > 0) {
-    // Of another sensor, if it lies above.
-    if (nameless == pictures.size() && elsewhere == 0) {
-      for (std::size_t k = 0; k < pictures.size(); ++k) Add(pictures[k], rows[k].second);
-      return true;
-    }
-    if (beside != folder) return false;
-    throw std::runtime_error(path + ": " + std::to_string(nameless) +
-                             " rows hold a stamp alone, but there are " + std::to_string(pictures.size()) +
-                             " pictures; expected \"stamp name\", or one stamp for each picture");
-  }
-  if (rows.size() < elsewhere) return false;
-  for (const auto& [file, stamp] : rows) Add(file, stamp);
+  const auto listed = ReadPictureList({text, tree_->PathOf(name), FolderOf(name)}, pictures);
+  if (!listed) return false;
+  for (const ListedPicture& picture : *listed) Add(picture.file, picture.stamp);
   return true;
 }
 

@@ -6,6 +6,7 @@
 
 #include "tools/formats/frames/file_tree.h"
 #include "tools/formats/frames/frame_source.h"
+#include "tools/formats/frames/picture_list.h"
 
 namespace evit::formats {
 
@@ -18,8 +19,7 @@ class FileFrames : public FrameSource {
   StoredPicture Fetch(std::size_t k) override;
 
  private:
-  bool TakeList(const std::string& list, const std::vector<std::string>& pictures,
-                const std::string& name_of_folder);
+  bool TakeList(const std::string& name, const PictureFolder& pictures);
   void Add(const std::string& file, const std::string& stamp);
 
   std::unique_ptr<FileTree> tree_;

@@ -41,10 +41,11 @@ struct FrameSourceOptions {
 };
 
 /// Opens what the path is: a folder or zip archive of pictures (PNG, JPEG, BMP, TIFF, PGM), or a bag of ROS 1
-/// or 2 with sensor_msgs/Image or CompressedImage. Stamps of files come from a list (images.txt, rgb.txt,
-/// depth.txt, image_timestamps.txt, timestamps.txt, times.txt, data.csv beside or above the pictures: "stamp
-/// name" a line, or a stamp for each picture), else from the names, where these hold numbers of ten digits or
-/// more. Throws std::runtime_error naming the path, what is wrong and the remedy.
+/// or 2 with sensor_msgs/Image or CompressedImage. Stamps of files come from a list beside or above the
+/// pictures (images.txt, rgb.txt, depth.txt, timestamp.txt, timestamps.txt, image_timestamps.txt, times.txt,
+/// data.csv, left_images.txt, ...; ReadPictureList says what it may hold), else from the names, where these
+/// hold numbers of ten digits or more that do not count. Throws std::runtime_error naming the path, what is
+/// wrong and the remedy.
 std::unique_ptr<FrameSource> OpenFrames(const std::string& path, const FrameSourceOptions& options);
 
 }  // namespace evit::formats

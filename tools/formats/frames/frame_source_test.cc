@@ -150,7 +150,7 @@ TEST_F(FrameSourceTest, ErrorsNameWhatIsWrongAndTheRemedy) {
   Write("pics/1.png", Png(1));
   Write("pics/2.png", Png(1));
   Write("pics/images.txt", "0.5\n");
-  EXPECT_THAT(Error("pics"), HasSubstr("1 rows hold a stamp alone, but there are 2 pictures"));
+  EXPECT_THAT(Error("pics"), HasSubstr("1 rows hold a stamp and no name, but there are 2 pictures"));
   EXPECT_THAT(Error("pics", {"/camera"}), HasSubstr("is not a ROS bag"));
   {
     rosbag::Bag bag(Path("imu.bag"), rosbag::bagmode::Write);
