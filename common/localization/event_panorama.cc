@@ -190,13 +190,17 @@ std::array<double, kRows> MeansInSight(const Pictures& near, const Seen& seen, i
 }  // namespace
 
 EventPanorama::EventPanorama(const cv::Mat& surface, const Camera& camera,
-                             const Eigen::Quaterniond& R_up_camera)
+                             const Eigen::Quaterniond& R_up_camera, bool directions)
     : gain_(kStackedRows), sight_(kRows) {
   int factor = 1;
   const cv::Mat image = Reduced(surface, &factor);
   Seen seen = Look(image, Projection(camera, R_up_camera, factor));
   Normalise(kBin * camera.fx / factor, &seen.held);
-  const Pictures near = Nearness(seen.held);
+  Pictures near = Nearness(seen.held);
+  if (!directions) {
+    for (int d = 0; d < kDirections; ++d)
+      std::copy_n(near.begin() + kAnyDirection * kRows, kRows, near.begin() + d * kRows);
+  }
   double squares = 0, places = 0;
   for (int d = 0; d <= kDirections; ++d) {
     const std::array<double, kRows> means = MeansInSight(near, seen, d);

@@ -17,8 +17,9 @@ namespace evit {
 class EventPanorama {
  public:
   /// `surface`: negated time surface (SurfaceField), of that camera. `R_up_camera`: its rotation in an
-  /// upright frame, z up, of any azimuth.
-  EventPanorama(const cv::Mat& surface, const Camera& camera, const Eigen::Quaterniond& R_up_camera);
+  /// upright frame, z up, of any azimuth. `directions` false: edges of the map meet events of any direction.
+  EventPanorama(const cv::Mat& surface, const Camera& camera, const Eigen::Quaterniond& R_up_camera,
+                bool directions = true);
 
   /// What an edge of the map at (stacked row, column) is worth where the viewer is turned by yaw bin
   /// 0..kColumns-1: that many numbers, zero where the edge is out of sight then. Of edges at random the mean

@@ -11,12 +11,24 @@ namespace {
 constexpr double kFits = 3.5;           // significance of a step that fits
 constexpr int kMaxWeak = 2;             // steps in a row that do not, before a place is dropped
 constexpr double kSame = 0.03;          // m, rad: two places in one valley
+constexpr double kLonger = 0.5;         // of significance, which is chance between two of them
 constexpr double kVelocityGain = 0.6;   // of what a step says of the velocity
 constexpr double kViewDepth = 1.5;      // m: what lies there moves over the image as by this turn
 constexpr std::size_t kMaxSteps = 100;  // 5 s: what was earlier says no more
 
 bool SamePose(const SE3& a, const SE3& b) {
   return (a.p - b.p).norm() < kSame && AngularDistance(a.q, b.q) < kSame;
+}
+
+// Of two places that have come to lie in one valley: whether `a` has explained the events better on the way.
+// The other one has come from elsewhere, and where it was before does not go with the motion. About equal:
+// the one followed for longer.
+bool Better(const FollowedPlace& a, const FollowedPlace& b) {
+  const std::size_t common = std::min(a.steps.size(), b.steps.size());
+  const double longer = a.steps.size() > b.steps.size()   ? kLonger
+                        : a.steps.size() < b.steps.size() ? -kLonger
+                                                          : 0;
+  return a.Mean(common) + longer > b.Mean(common);
 }
 
 }  // namespace
@@ -93,15 +105,20 @@ void FollowedPlaces::Adopt(Utime t, const PlaceCandidate& candidate) {
   places_.push_back(std::move(place));
 }
 
-// What does not fit any more, what has come to lie in another's valley (the younger of two), and of too many
-// the least significant.
+// What does not fit any more, what has come to lie in another's valley, and of too many the least
+// significant.
 void FollowedPlaces::DropWeak() {
   std::vector<FollowedPlace> kept;
   for (FollowedPlace& place : places_) {
-    const bool known = std::any_of(kept.begin(), kept.end(), [&](const FollowedPlace& k) {
+    if (place.weak >= kMaxWeak) continue;
+    const auto same = std::find_if(kept.begin(), kept.end(), [&](const FollowedPlace& k) {
       return SamePose(k.state.T_map_body, place.state.T_map_body);
     });
-    if (place.weak < kMaxWeak && !known) kept.push_back(std::move(place));
+    if (same == kept.end()) {
+      kept.push_back(std::move(place));
+    } else if (Better(place, *same)) {
+      *same = std::move(place);
+    }
   }
   places_ = std::move(kept);
   std::stable_sort(places_.begin(), places_.end(), [](const FollowedPlace& a, const FollowedPlace& b) {

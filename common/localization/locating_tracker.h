@@ -51,6 +51,8 @@ class LocatingTracker final : public MapTracker {
   const PlaceQuery* PlaceQuestion() const override { return searching_ ? locator_.question() : nullptr; }
   void SetPlacePrior(const PlacePrior& prior) override { locator_.SetPrior(prior); }
   void AddPlaces(const std::vector<PlaceCandidate>& places) override { locator_.AddAnswer(places); }
+  /// How far the search is, for a person.
+  std::string Progress() const { return locator_.Progress(); }
 
  private:
   void Search(TrackerMode mode);

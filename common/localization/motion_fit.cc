@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/imu/propagation.h"
 
@@ -17,6 +18,7 @@ constexpr double kTurnSigma = 0.005;  // rad: the same, of its rotation
 constexpr double kGyroBias = 0.01;    // rad/s, of a calibrated sensor
 constexpr double kConstant = 0.2;  // m/s^2: bias of the accelerometer, and gravity through a tilt of a degree
 constexpr double kSameScale = 0.1;  // a tenth is within what maps from pictures have
+constexpr std::size_t kAstray = 4;  // one of so many poses may be left out
 constexpr double kTogether = 6;     // steps that err together: neighbours see the same part of the map
 constexpr int kUnknowns = 10;       // start, velocity, constant acceleration, scale
 
@@ -70,21 +72,20 @@ Attitude FitAttitude(const Steps& steps, const std::vector<ImuSample>& samples, 
   return {ExpSO3(x.head<3>()) * first, {x.tail<3>(), Eigen::Vector3d::Zero()}};
 }
 
-}  // namespace
-
-bool MotionFit::Disagrees() const { return std::abs(scale - 1) > kSameScale + 3 * scale_sigma; }
-
-std::optional<MotionFit> FitMotion(const std::vector<FollowedPlace::Step>& steps,
-                                   const std::vector<ImuSample>& samples, double gravity) {
-  if (steps.size() < kFewest || samples.size() < 2) return std::nullopt;
-  const Attitude attitude = FitAttitude(steps, samples, gravity);
-  const std::vector<Moved> moved = MoveByImu(steps, samples, attitude.start, attitude.bias, gravity);
+// The motion that some of the steps agree on best.
+struct Fitted {
+  Vector10 x;
+  double scale_spread;        // sigma of the scale for poses of sigma 1 m
+  std::vector<double> off_m;  // of each of these steps
+};
+Fitted FitSteps(const Steps& steps, const std::vector<Moved>& moved,
+                const std::vector<std::size_t>& fitting) {
   Matrix10 information = Matrix10::Zero();
   Vector10 right = Vector10::Zero();
   information.diagonal().segment<3>(6).setConstant(kPoseSigma * kPoseSigma / (kConstant * kConstant));
   const Eigen::Vector3d origin = steps.front().T_map_body.p;
   std::vector<Eigen::Matrix<double, 3, kUnknowns>> rows;
-  for (std::size_t k = 0; k < steps.size(); ++k) {
+  for (const std::size_t k : fitting) {
     const double t = ToSeconds(steps[k].t - steps.front().t);
     Eigen::Matrix<double, 3, kUnknowns> row;
     row << Eigen::Matrix3d::Identity(), t * Eigen::Matrix3d::Identity(),
@@ -94,17 +95,42 @@ std::optional<MotionFit> FitMotion(const std::vector<FollowedPlace::Step>& steps
     rows.push_back(row);
   }
   const Eigen::LDLT<Matrix10> solver(information);
-  const Vector10 x = solver.solve(right);
-  double squares = 0;
-  for (std::size_t k = 0; k < steps.size(); ++k)
-    squares += (rows[k] * x - (steps[k].T_map_body.p - origin)).squaredNorm();
-  MotionFit fit;
-  fit.scale = x[kUnknowns - 1];
-  fit.misfit = std::sqrt(squares / static_cast<double>(steps.size()));
-  const double sigma =
-      std::max(kPoseSigma, std::sqrt(squares / (3.0 * static_cast<double>(steps.size()) - 7)));
   const Vector10 last = Vector10::Unit(kUnknowns - 1);
-  fit.scale_sigma = sigma * std::sqrt(kTogether * std::max(0.0, last.dot(solver.solve(last))));
+  Fitted fitted{solver.solve(right), std::sqrt(std::max(0.0, last.dot(solver.solve(last)))), {}};
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    fitted.off_m.push_back((rows[k] * fitted.x - (steps[fitting[k]].T_map_body.p - origin)).norm());
+  return fitted;
+}
+
+}  // namespace
+
+bool MotionFit::Disagrees() const { return std::abs(scale - 1) > kSameScale + 3 * scale_sigma; }
+
+std::optional<MotionFit> FitMotion(const std::vector<FollowedPlace::Step>& steps,
+                                   const std::vector<ImuSample>& samples, double gravity) {
+  if (steps.size() < kFewest || samples.size() < 2) return std::nullopt;
+  const Attitude attitude = FitAttitude(steps, samples, gravity);
+  const std::vector<Moved> moved = MoveByImu(steps, samples, attitude.start, attitude.bias, gravity);
+  MotionFit fit;
+  fit.fitting.resize(steps.size());
+  std::iota(fit.fitting.begin(), fit.fitting.end(), std::size_t{0});
+  const std::size_t fewest = std::max(kFewest, steps.size() - steps.size() / kAstray);
+  Fitted fitted = FitSteps(steps, moved, fit.fitting);
+  while (fit.fitting.size() > fewest) {
+    std::vector<double> off = fitted.off_m;
+    const auto worst = std::max_element(fitted.off_m.begin(), fitted.off_m.end());
+    std::nth_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
+    if (*worst < std::max(2 * kPoseSigma, 3 * off[off.size() / 2])) break;
+    fit.fitting.erase(fit.fitting.begin() + (worst - fitted.off_m.begin()));
+    fitted = FitSteps(steps, moved, fit.fitting);
+  }
+  double squares = 0;
+  for (const double off : fitted.off_m) squares += off * off;
+  const auto n = static_cast<double>(fit.fitting.size());
+  fit.scale = fitted.x[kUnknowns - 1];
+  fit.misfit = std::sqrt(squares / n);
+  const double sigma = std::max(kPoseSigma, std::sqrt(squares / (3 * n - 7)));
+  fit.scale_sigma = sigma * std::sqrt(kTogether) * fitted.scale_spread;
   return fit;
 }
 

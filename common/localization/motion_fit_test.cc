@@ -75,6 +75,28 @@ TEST(MotionFitTest, WithoutMotionItSaysThatItCannotTell) {
   EXPECT_FALSE(fit->Disagrees());
 }
 
+TEST(MotionFitTest, SinglePosesThatWentAstrayAreLeftOut) {
+  Recorded recorded(1, 1);
+  const std::vector<std::size_t> astray{5, 12, 20};
+  for (const std::size_t k : astray) recorded.steps[k].T_map_body.p += Eigen::Vector3d(0.05, -0.03, 0.02);
+  const std::optional<MotionFit> fit = FitMotion(recorded.steps, recorded.imu, 9.81);
+  ASSERT_TRUE(fit);
+  EXPECT_FALSE(fit->Disagrees());
+  EXPECT_LT(fit->misfit, 0.006);
+  EXPECT_EQ(fit->fitting.size() + astray.size(), recorded.steps.size());
+  for (const std::size_t k : astray)
+    EXPECT_FALSE(std::binary_search(fit->fitting.begin(), fit->fitting.end(), k));
+}
+
+TEST(MotionFitTest, ButNotWhereManyPosesDisagree) {
+  Recorded recorded(1, 1);
+  for (std::size_t k = 0; k < recorded.steps.size(); k += 2) recorded.steps[k].T_map_body.p.x() += 0.1;
+  const std::optional<MotionFit> fit = FitMotion(recorded.steps, recorded.imu, 9.81);
+  ASSERT_TRUE(fit);
+  EXPECT_GT(fit->misfit, 0.03);
+  EXPECT_GE(4 * fit->fitting.size(), 3 * recorded.steps.size());
+}
+
 TEST(MotionFitTest, AFewPosesSayNothing) {
   const Recorded recorded(1, 0.2);
   EXPECT_FALSE(FitMotion(recorded.steps, recorded.imu, 9.81));

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 
-#include "common/localization/yaw_search.h"
 #include "common/parallel/parallel_for.h"
 #include "common/tracking/alignment_significance.h"
 #include "common/tracking/start_search.h"
@@ -93,7 +92,8 @@ std::vector<PlaceCandidate> PlaceFinder::Refined(const PlaceQuery& query, const 
 std::vector<PlaceCandidate> PlaceFinder::Everywhere(const PlaceQuery& query,
                                                     const SurfaceField& field) const {
   const auto R_up_body = Eigen::Quaterniond::FromTwoVectors(query.up_body, Eigen::Vector3d::UnitZ());
-  const EventPanorama panorama(query.surface, rig_.camera, R_up_body * rig_.T_body_camera.q);
+  const EventPanorama panorama(query.surface, rig_.camera, R_up_body * rig_.T_body_camera.q,
+                               options_.directions);
   if (panorama.occupied() < kFewestPlaces) return {};
   const auto pose_of = [&](const Eigen::Vector3f& at, double yaw) {
     SE3 pose;
@@ -107,8 +107,10 @@ std::vector<PlaceCandidate> PlaceFinder::Everywhere(const PlaceQuery& query,
       return query.prior.Allows(pose_of(at, yaw), index_.spacing(), panorama::kBin);
     };
   }
+  const std::size_t count = MatchesOf(index_, options_.matches);
   const std::vector<PlaceMatch> matches =
-      BestMatches(index_, panorama, MatchesOf(index_, options_.matches), allowed, options_.threads);
+      options_.panoramas ? BestMatches(index_, panorama, count, allowed, options_.threads)
+                         : SpreadEvenly(count);
   std::vector<PlaceCandidate> aligned(matches.size());
   ParallelFor(static_cast<int>(matches.size()), options_.threads, [&](int k) {
     aligned[k] = Aligned(field, pose_of(matches[k].at, matches[k].yaw), kFromMatch);
@@ -123,6 +125,15 @@ std::vector<PlaceCandidate> PlaceFinder::Everywhere(const PlaceQuery& query,
   aligned.insert(aligned.end(), searched.begin(), searched.end());
   SortOut(&aligned, options_.candidates);
   return aligned;
+}
+
+std::vector<PlaceMatch> PlaceFinder::SpreadEvenly(std::size_t count) const {
+  constexpr double kGoldenAngle = 2.39996;
+  const std::vector<PlaceIndex::Place>& places = index_.places();
+  std::vector<PlaceMatch> matches;
+  for (std::size_t k = 0; k < std::min(count, places.size()); ++k)
+    matches.push_back({places[k * places.size() / count].at, kGoldenAngle * static_cast<double>(k), 0});
+  return matches;
 }
 
 PlaceCandidate PlaceFinder::Aligned(const SurfaceField& field, const SE3& T_map_body,

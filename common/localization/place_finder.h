@@ -6,6 +6,7 @@
 #include "common/geometry/rig.h"
 #include "common/localization/place_index.h"
 #include "common/localization/place_query.h"
+#include "common/localization/yaw_search.h"
 #include "common/map/map_index.h"
 #include "common/tracking/localizer.h"
 #include "common/tracking/tracker_options.h"
@@ -17,6 +18,9 @@ struct PlaceFinderOptions {
   std::size_t candidates = 8;  // in the answer to a search everywhere, at most
   std::size_t points = 900;    // of the map, to compare an image by
   int threads = 2;
+  // Parts that may be left out, to measure what they are worth.
+  bool panoramas = true;   // else the places that are compared are spread evenly
+  bool directions = true;  // of edges, when panoramas are compared
 };
 
 /// Where in a map a keyframe may have been seen: all places and yaws by their panoramas (PlaceIndex), the
@@ -35,6 +39,7 @@ class PlaceFinder {
  private:
   std::vector<PlaceCandidate> Refined(const PlaceQuery& query, const SurfaceField& field) const;
   std::vector<PlaceCandidate> Everywhere(const PlaceQuery& query, const SurfaceField& field) const;
+  std::vector<PlaceMatch> SpreadEvenly(std::size_t count) const;
   PlaceCandidate Aligned(const SurfaceField& field, const SE3& T_map_body, const StartRange& range) const;
   PlaceCandidate Searched(const SurfaceField& field, const SE3& T_map_body, const StartRange& range,
                           std::int64_t number) const;

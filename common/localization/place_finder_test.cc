@@ -103,7 +103,7 @@ TEST(PlaceFinder, AnEmptyViewOrAnEmptyMapHasNoAnswer) {
 
 TEST(PlaceIndex, NoMorePlacesThanAllowedAndItCanBeStopped) {
   PlaceIndexOptions options = synthetic::IndexedRoom::Options();
-  options.max_places = 200;
+  options.grid.max_places = 200;
   const PlaceIndex index(synthetic::WalledRoom(1), options);
   EXPECT_LE(index.places().size(), 200U);
   EXPECT_GT(index.places().size(), 50U);

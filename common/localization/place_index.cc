@@ -19,8 +19,7 @@ constexpr std::size_t kCells = std::size_t{kRows} * kColumns;
 constexpr int kPatch = 4;  // bins: of the panorama, that are thinned together
 constexpr std::size_t kPatches = kCells / kPatch / kPatch;
 constexpr int kPatchEdges = 6;
-constexpr double kRoomHeight = 2, kBeyondRoom = 0.2;  // m
-constexpr float kBehind = 1.15F, kBehindM = 0.1F;     // farther by that much than what lies around it: hidden
+constexpr float kBehind = 1.15F, kBehindM = 0.1F;  // farther by that much than what lies around it: hidden
 
 // Edges as loops over lanes take them: places, and directions (zero: none).
 struct EdgeArrays {
@@ -150,43 +149,16 @@ class View {
   std::array<float, kCells> nearest_, horizon_;
 };
 
-std::vector<Eigen::Vector3f> Grid(const std::vector<EdgePoint>& edges, const PlaceIndexOptions& options,
-                                  double* spacing) {
-  Eigen::Vector3d low = edges.front().at.cast<double>(), high = low;
-  for (const EdgePoint& e : edges) {
-    low = low.cwiseMin(e.at.cast<double>());
-    high = high.cwiseMax(e.at.cast<double>());
-  }
-  low.head<2>().array() -= options.beyond;
-  high.head<2>().array() += options.beyond;
-  // A map that is as high as a room has a floor and a ceiling: nobody looks from beyond.
-  const double above = high.z() - low.z() < kRoomHeight ? options.beyond : kBeyondRoom;
-  low.z() -= above;
-  high.z() += above;
-  const Eigen::Vector3d size = high - low;
-  *spacing = std::max(options.spacing, std::cbrt(size.prod() / static_cast<double>(options.max_places)));
-  Eigen::Vector3i n;
-  for (;; *spacing *= 1.02) {
-    for (int a = 0; a < 3; ++a) n[a] = static_cast<int>(std::min(1e6, size[a] / *spacing)) + 1;
-    if (1.0 * n[0] * n[1] * n[2] <= static_cast<double>(options.max_places)) break;
-  }
-  const Eigen::Vector3d first = low + 0.5 * (size - *spacing * (n.array() - 1).matrix().cast<double>());
-  std::vector<Eigen::Vector3f> grid;
-  for (int z = 0; z < n[2]; ++z)
-    for (int y = 0; y < n[1]; ++y)
-      for (int x = 0; x < n[0]; ++x)
-        grid.emplace_back((first + *spacing * Eigen::Vector3d(x, y, z)).cast<float>());
-  return grid;
-}
-
 }  // namespace
 
 PlaceIndex::PlaceIndex(const PointMap& map, const PlaceIndexOptions& options,
                        const std::function<void(double)>& progress)
-    : spacing_(options.spacing) {
+    : spacing_(options.grid.spacing) {
   if (map.points.empty()) return;
   const std::vector<EdgePoint> edges = ThinEdges(map, options.edges);
-  const std::vector<Eigen::Vector3f> grid = Grid(edges, options, &spacing_);
+  const PlaceGrid made = MakePlaceGrid(edges, options.grid);
+  const std::vector<Eigen::Vector3f>& grid = made.places;
+  spacing_ = made.spacing;
   std::vector<std::vector<Edge>> visible(grid.size());
   std::mutex reporting;
   const auto blocks = static_cast<int>((grid.size() + kBlock - 1) / kBlock);

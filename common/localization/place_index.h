@@ -8,18 +8,17 @@
 
 #include "common/localization/edge_points.h"
 #include "common/localization/panorama.h"
+#include "common/localization/place_grid.h"
 
 namespace evit {
 
 struct PlaceIndexOptions {
   EdgePointOptions edges;
-  double spacing = 0.15;            // m: between neighbouring places, larger where that makes too many
-  double beyond = 0.75;             // m: places lie in the map's box and so far around it
-  std::size_t max_places = 60'000;  // in all
-  double min_depth = 0.2;           // m: edges nearer than that are left out
-  double max_depth = 12;            // m
-  int min_visible = 40;             // edges, from a place worth keeping
-  std::size_t max_visible = 1024;   // edges of a place: of more than that, as many, evenly chosen
+  PlaceGridOptions grid;
+  double min_depth = 0.2;          // m: edges nearer than that are left out
+  double max_depth = 12;           // m
+  int min_visible = 40;            // edges, from a place worth keeping
+  std::size_t max_visible = 1024;  // edges of a place: of more than that, as many, evenly chosen
   int threads = 2;
 };
 

@@ -13,7 +13,7 @@
 namespace evit {
 namespace {
 
-constexpr std::uint64_t kVersion = 3;  // of the file, and of what an index holds: another one is made again
+constexpr std::uint64_t kVersion = 4;  // of the file, and of what an index holds: another one is made again
 constexpr char kMagic[8] = {'E', 'V', 'I', 'T', 'P', 'L', 'A', 'C'};
 
 // As they lie in memory, which is without gaps.
@@ -47,9 +47,10 @@ std::uint64_t FingerprintOf(const PointMap& map, const PlaceIndexOptions& o) {
   hash.AddValue(kVersion);
   for (const int size : {panorama::kColumns, panorama::kRows, panorama::kDirections, o.min_visible})
     hash.AddValue(size);
-  for (const double value : {o.edges.spacing, o.edges.radius, o.spacing, o.beyond, o.min_depth, o.max_depth})
+  for (const double value : {o.edges.spacing, o.edges.radius, o.grid.spacing, o.grid.beyond,
+                             o.grid.beyond_open, o.min_depth, o.max_depth})
     hash.AddValue(value);
-  for (const std::size_t most : {o.edges.max_points, o.max_places, o.max_visible}) hash.AddValue(most);
+  for (const std::size_t most : {o.edges.max_points, o.grid.max_places, o.max_visible}) hash.AddValue(most);
   hash.Add(map.points.data(), map.points.size() * sizeof map.points[0]);
   return hash.value();
 }

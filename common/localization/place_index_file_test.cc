@@ -21,7 +21,7 @@ class PlaceIndexFileTest : public ::testing::Test {
     path_ = PlaceIndexPath(folder_ / "map.pcd");
     const PointMap room = synthetic::WalledRoom(1);
     for (std::size_t k = 0; k < room.points.size(); k += 8) map_.points.push_back(room.points[k]);
-    options_.max_places = 200;
+    options_.grid.max_places = 200;
     options_.min_visible = 5;
   }
   ~PlaceIndexFileTest() override {
@@ -63,7 +63,7 @@ TEST_F(PlaceIndexFileTest, AnotherMapOrOtherOptionsMakeItAgain) {
   map_.points.back().x() += 1e-4F;
   EXPECT_FALSE(Load());
   EXPECT_TRUE(Load());
-  options_.spacing *= 1.5;
+  options_.grid.spacing *= 1.5;
   EXPECT_FALSE(Load());
 }
 

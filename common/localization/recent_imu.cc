@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/geometry/so3.h"
+
 namespace evit {
 
 bool RecentImu::Add(const KeyframeInput& keyframe, double max_gap, Utime kept) {
@@ -20,6 +22,16 @@ std::vector<ImuSample> RecentImu::Between(Utime begin, Utime end) const {
   const auto from = std::lower_bound(samples_.begin(), samples_.end(), begin, before);
   const auto to = std::lower_bound(from, samples_.end(), end + 1, before);
   return {from, to};
+}
+
+Eigen::Quaterniond RecentImu::Turn(Utime begin, Utime end) const {
+  Eigen::Quaterniond R_begin_end = Eigen::Quaterniond::Identity();
+  const std::vector<ImuSample> between = Between(begin, end);
+  for (std::size_t k = 1; k < between.size(); ++k) {
+    const Eigen::Vector3d rate = 0.5 * (between[k - 1].gyro + between[k].gyro);
+    R_begin_end = (R_begin_end * ExpSO3(ToSeconds(between[k].t - between[k - 1].t) * rate)).normalized();
+  }
+  return R_begin_end.conjugate();
 }
 
 }  // namespace evit

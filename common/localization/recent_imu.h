@@ -19,6 +19,8 @@ class RecentImu {
   Utime newest() const { return samples_.back().t; }
   /// Samples of [begin, end], us; keyframes' stamps are among them.
   std::vector<ImuSample> Between(Utime begin, Utime end) const;
+  /// The rotation R_end_begin of the body between, by the gyro.
+  Eigen::Quaterniond Turn(Utime begin, Utime end) const;
 
  private:
   std::deque<ImuSample> samples_;

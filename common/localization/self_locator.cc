@@ -15,20 +15,11 @@ namespace {
 
 constexpr Utime kPatience = 3'000'000;  // us: keyframes kept while an answer is awaited
 constexpr std::size_t kBacklog = 6;     // keyframes waiting, from which every other is left out
-constexpr Utime kRetry = 100'000;       // us between searches everywhere that found nothing worth following
-constexpr double kUnsureUp = 0.05;      // rad: from which the next search tries another vertical
-constexpr double kKnownScale = 0.1;     // sigma of the map's size, where it is in doubt
+constexpr std::size_t kConvincing =
+    4;  // newest steps of a place that have to fit well, before others are searched
+constexpr double kKnownScale = 0.1;  // sigma of the map's size, where it is in doubt
 constexpr double kPriorSlack = 0.2;  // m, rad: a place a little outside of what is known may still be right
 constexpr double kPoseSigma = 0.01;  // m, rad: of an event-only pose, for the alignment with the IMU
-
-// Of attempts one after the other: the vertical as estimated, then tilted by its uncertainty to four sides.
-Eigen::Vector3d Tilted(const Upright& upright, std::int64_t attempt) {
-  const int side = static_cast<int>(attempt % 5);
-  if (side == 0 || upright.sigma < kUnsureUp) return upright.up;
-  const Eigen::Vector3d a = upright.up.unitOrthogonal(), b = upright.up.cross(a);
-  const Eigen::Vector3d axis = side == 1 ? a : side == 2 ? -a : side == 3 ? b : Eigen::Vector3d(-b);
-  return ExpSO3(1.5 * upright.sigma * axis) * upright.up;
-}
 
 }  // namespace
 
@@ -36,14 +27,17 @@ SelfLocator::SelfLocator(const Rig& rig, const TrackerOptions& tracker, const Se
     : rig_(rig),
       tracker_(tracker),
       options_(options),
-      places_(rig.gravity, options.max_hypotheses, options.worth_following) {}
+      places_(rig.gravity, options.max_hypotheses, options.worth_following),
+      searches_(options.again_s) {}
 
 void SelfLocator::Restart() {
   imu_.Clear();
   views_.clear();
   question_.reset();
   places_.Clear();
-  searched_ = last_view_ = found_at_ = 0;
+  newest_ = {0, {}};
+  searches_.Clear();
+  found_at_ = 0;
   progress_ = "waiting for IMU samples";
 }
 
@@ -57,7 +51,7 @@ void SelfLocator::SetPrior(const PlacePrior& prior) {
       [&prior](const SE3& T_map_body) { return prior.Allows(T_map_body, kPriorSlack, kPriorSlack); });
   // The pending question is about dropped places too. If none is left, the whole map is searched at once.
   if (dropped && found_at_ == 0) question_.reset();
-  if (dropped && places_.empty()) searched_ = 0;
+  if (dropped && places_.empty()) searches_.Clear();
 }
 
 void SelfLocator::AddImu(const KeyframeInput& keyframe) {
@@ -76,29 +70,27 @@ void SelfLocator::AddKeyframe(const KeyframeInput& keyframe) {
     places_.Clear();
     question_.reset();
   }
-  if (keyframe.t - last_view_ >= static_cast<Utime>(options_.step_ms * 1e3) || keyframe.t <= last_view_) {
-    views_.push_back({keyframe.t, keyframe.surface.clone()});
-    last_view_ = keyframe.t;
+  if (keyframe.t - newest_.t >= static_cast<Utime>(options_.step_ms * 1e3) || keyframe.t <= newest_.t) {
+    newest_ = {keyframe.t, keyframe.surface.clone()};
+    views_.push_back(newest_);
   }
   AskNext();
 }
 
 // One question at a time: the next keyframe for what is followed, or, where nothing is, the whole map for the
-// newest.
+// newest; that one also where what is followed does not convince.
 void SelfLocator::AskNext() {
-  if (question_ || views_.empty() || found_at_ != 0) return;
-  if (places_.empty()) {
-    views_.erase(views_.begin(), views_.end() - 1);
-    if (searched_ != 0 && views_.back().t < searched_ + kRetry) return;
-    AskEverywhere(views_.back(), {});
-    if (question_) views_.pop_back();
+  if (question_ || newest_.t == 0 || found_at_ != 0) return;
+  if (places_.empty()) views_.clear();
+  if (views_.empty()) {
+    if (!Convinced() && searches_.Due(newest_.t, false)) AskEverywhere(newest_, {});
     return;
   }
   if (views_.size() > kBacklog) views_.pop_front();  // late: longer steps catch up
   const View view = std::move(views_.front());
   views_.pop_front();
   std::vector<SE3> predicted = places_.MoveTo(view.t, Imu());
-  if (ToSeconds(view.t - searched_) >= options_.again_s) {
+  if (searches_.Due(view.t, Convinced())) {
     AskEverywhere(view, predicted);
     if (question_) return;
   }
@@ -106,18 +98,27 @@ void SelfLocator::AskNext() {
       PlaceQuery{++asked_, view.t, view.surface, Eigen::Vector3d::UnitZ(), false, std::move(predicted), {}};
 }
 
+bool SelfLocator::Convinced() const {
+  return std::any_of(places_.all().begin(), places_.all().end(), [&](const FollowedPlace& place) {
+    return place.Mean(kConvincing) >= options_.patient_significance;
+  });
+}
+
 void SelfLocator::AskEverywhere(const View& view, std::vector<SE3> hypotheses) {
   const std::vector<ImuSample> before =
       imu_.Between(view.t - static_cast<Utime>(options_.up_s * 1e6), view.t);
-  if (before.empty() || ToSeconds(view.t - before.front().t) < options_.least_up_s) return;
+  if (before.empty() ||
+      ToSeconds(view.t - before.front().t) < std::min(options_.least_up_s, 0.9 * options_.up_s)) {
+    return;
+  }
   const Upright upright = EstimateUpright(before, rig_.gravity);
   if (!upright.known) {
     progress_ = "the accelerometer shows no gravity";
     return;
   }
-  searched_ = view.t;
-  question_ = PlaceQuery{
-      ++asked_, view.t, view.surface, Tilted(upright, asked_), true, std::move(hypotheses), options_.prior};
+  const Eigen::Vector3d tried = searches_.Begin(view.t, upright, imu_);
+  const Eigen::Vector3d up = options_.other_verticals ? tried : upright.up;
+  question_ = PlaceQuery{++asked_, view.t, view.surface, up, true, std::move(hypotheses), options_.prior};
   if (places_.empty()) progress_ = "searching " + Searched();
 }
 
@@ -153,15 +154,17 @@ void SelfLocator::Decide() {
     progress_ = FormatText("ambiguous: %zu places look alike", rivals + 1);
     return;
   }
-  if (const std::string wrong = WhatDisagrees(best); !wrong.empty()) {
+  const std::optional<MotionFit> fit =
+      FitMotion(best.steps, imu_.Between(best.steps.front().t, best.steps.back().t), rig_.gravity);
+  if (const std::string wrong = WhatDisagrees(fit); !wrong.empty()) {
     progress_ = wrong;
     return;
   }
-  if (!Aligned(best, &found_)) {
+  if (!Aligned(best.steps, fit->fitting, &found_)) {
     progress_ = "a place fits the events, but its motion does not fit the IMU";
     return;
   }
-  found_at_ = best.steps.back().t;
+  found_at_ = best.steps[fit->fitting.back()].t;
   progress_ = "found";
 }
 
@@ -171,9 +174,7 @@ std::string SelfLocator::WrongScale(const MotionFit& fit) {
 }
 
 // What the accelerometer says against the place's motion; empty: nothing.
-std::string SelfLocator::WhatDisagrees(const FollowedPlace& place) const {
-  const std::optional<MotionFit> fit =
-      FitMotion(place.steps, imu_.Between(place.steps.front().t, place.steps.back().t), rig_.gravity);
+std::string SelfLocator::WhatDisagrees(const std::optional<MotionFit>& fit) const {
   if (!fit) return "too few poses";
   if (fit->Disagrees()) return WrongScale(*fit);
   if (doubts_scale_ && fit->scale_sigma > kKnownScale)
@@ -183,11 +184,12 @@ std::string SelfLocator::WhatDisagrees(const FollowedPlace& place) const {
 
 // Whether the poses of a hypothesis are those of a body with this IMU: velocities and biases exist that a
 // sensor can have.
-bool SelfLocator::Aligned(const FollowedPlace& place, BodyState* state) const {
+bool SelfLocator::Aligned(const std::vector<FollowedPlace::Step>& steps,
+                          const std::vector<std::size_t>& fitting, BodyState* state) const {
   std::vector<BootstrapFrame> frames;
-  const std::size_t n = place.steps.size(), most = 40;
+  const std::size_t n = fitting.size(), most = 40;
   for (std::size_t k = n > most ? n - most : 0; k < n; ++k) {
-    const FollowedPlace::Step& step = place.steps[k];
+    const FollowedPlace::Step& step = steps[fitting[k]];
     BootstrapFrame frame{step.t, step.T_map_body, nullptr};
     if (!frames.empty()) {
       frame.imu =

@@ -10,6 +10,7 @@
 #include "common/localization/motion_fit.h"
 #include "common/localization/place_query.h"
 #include "common/localization/recent_imu.h"
+#include "common/localization/search_schedule.h"
 #include "common/tracking/keyframe_input.h"
 #include "common/tracking/state.h"
 #include "common/tracking/tracker_options.h"
@@ -30,7 +31,8 @@ struct SelfLocatorOptions {
   double patient_lead = 1.5;        // the same, once it has been followed for twice as long
   double worth_following = 4;       // significance of what is followed at all
   std::size_t max_hypotheses = 8;   // that are followed at a time
-  double again_s = 1;               // after that long without a decision the whole map is searched again
+  bool other_verticals = true;      // are tried where the likeliest leads to no place
+  double again_s = 1;               // without a decision, after which the whole map is searched again
 };
 
 /// Finds out where it is without being told: asks where a keyframe may have been seen (PlaceQuery), moves the
@@ -76,9 +78,11 @@ class SelfLocator {
   void AskNext();
   void AskEverywhere(const View& view, std::vector<SE3> hypotheses);
   std::string Searched() const;  // "the map", or the part of it that the prior leaves
+  bool Convinced() const;
   void Decide();
-  std::string WhatDisagrees(const FollowedPlace& place) const;
-  bool Aligned(const FollowedPlace& place, BodyState* state) const;
+  std::string WhatDisagrees(const std::optional<MotionFit>& fit) const;
+  bool Aligned(const std::vector<FollowedPlace::Step>& steps, const std::vector<std::size_t>& fitting,
+               BodyState* state) const;
   FollowedPlaces::ImuBetween Imu() const;
 
   Rig rig_;
@@ -88,8 +92,8 @@ class SelfLocator {
   std::deque<View> views_;  // not asked about yet
   std::optional<PlaceQuery> question_;
   FollowedPlaces places_;
-  Utime last_view_ = 0;  // us: of the newest keyframe that was kept
-  Utime searched_ = 0;   // us: keyframe of the last search everywhere; 0: none yet
+  View newest_{0, {}};  // of all that were kept; t 0: none
+  SearchSchedule searches_;
   std::int64_t asked_ = 0;
   bool doubts_scale_ = false;
   Utime found_at_ = 0;  // us; 0: not found

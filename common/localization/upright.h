@@ -10,15 +10,17 @@ namespace evit {
 struct Upright {
   bool known = false;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // body frame, at the last sample
-  double sigma = 0;                               // rad
+  double sigma = 0;                               // rad, about each of two axes
 };
 
-/// From the samples of the last second or so: specific forces, turned into the last sample's frame by the
-/// gyro, and averaged with weights that rise and fall smoothly (Hann). Of the acceleration of a body that
-/// goes to and fro such a mean keeps the difference of two mean velocities, where a plain mean keeps that of
-/// two momentary ones: of hand-held motion a third of the error.
+/// From the samples of the last seconds: specific forces, turned into the last sample's frame by the gyro.
+/// They are gravity and the body's acceleration, which is the second derivative of a smooth motion. How
+/// smooth and how strong it is, the samples say themselves: for each of some time scales and strengths, with
+/// a Gaussian process of that kind as the motion, gravity follows by generalised least squares, and how
+/// likely the samples are. The mean of all, by likelihood, is the vertical. Of half a second of a fast motion
+/// to and fro the error is half that of a mean, of a slow one the same.
 ///
-/// `sigma` is what the readings themselves say: by how much the means of the window's halves differ.
+/// `sigma` is what this says of the error; on real and simulated hand-held motions the errors agree with it.
 /// Not known: fewer than ten samples, less than 0.1 s, or a mean that is not gravity (a fall, a wrong unit).
 Upright EstimateUpright(const std::vector<ImuSample>& samples, double gravity);
 

@@ -23,8 +23,8 @@ class LocatingTest : public WindowOptimizerTest {
   }
   static PlaceIndexOptions Sparse() {
     PlaceIndexOptions options;
-    options.spacing = 0.4;
-    options.max_places = 1500;
+    options.grid.spacing = 0.4;
+    options.grid.max_places = 1500;
     return options;
   }
   void AnswerPlaces() {

@@ -39,9 +39,9 @@ struct IndexedRoom {
       : places(points, Options()), index(std::move(points)), finder(index, places, TestRig(), {}, {}, {}) {}
   static PlaceIndexOptions Options() {
     PlaceIndexOptions options;
-    options.spacing = 0.35;
-    options.beyond = 0;
-    options.max_places = 3000;
+    options.grid.spacing = 0.35;
+    options.grid.beyond = options.grid.beyond_open = 0;
+    options.grid.max_places = 3000;
     return options;
   }
   static Rig TestRig() {

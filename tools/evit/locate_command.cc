@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "common/config/rig_file.h"
 #include "common/config/settings_file.h"
@@ -18,12 +19,13 @@
 #include "tools/evit/place_options.h"
 #include "tools/locate/candidates_picture.h"
 #include "tools/locate/locator_run.h"
+#include "tools/locate/search_trace.h"
 #include "tools/locate/start_tally.h"
 
 namespace evit::commands {
 namespace {
 
-constexpr double kRightM = 0.1, kRightDegrees = 3;  // a pose that counts as right
+constexpr double kMoment = 0.1;  // s of the accelerometer that tell the vertical, where nothing else shall
 constexpr double kDegree = 3.14159265358979 / 180;
 
 struct LocateOptions {
@@ -31,6 +33,8 @@ struct LocateOptions {
   run::PlaceTexts place;
   double at = 0, seconds = 5, hold = 0;
   int starts = 0;
+  bool trace = false;
+  std::vector<std::string> without;
 };
 
 double YawDegrees(const SE3& pose) {
@@ -53,7 +57,7 @@ std::string Compared(const locate::LocatorResult& result, const Trajectory& trut
   if (!PoseAt(truth, result.t, &pose)) return "no truth then";
   const double m = (result.T_map_body.p - pose.p).norm();
   const double degrees = AngularDistance(result.T_map_body.q, pose.q) / kDegree;
-  *right = m < kRightM && degrees < kRightDegrees;
+  *right = locate::IsRight(result.T_map_body, pose);
   char text[80];
   std::snprintf(text, sizeof text, "%.1f cm, %.2f deg off: %s", 100 * m, degrees, *right ? "right" : "WRONG");
   return text;
@@ -79,13 +83,28 @@ bool LocateOften(const LocateOptions& o, const locate::RecordedStreams& streams,
     const locate::LocatorResult result = run(streams.begin() + static_cast<Utime>(at * 1e6));
     bool right = false;
     const std::string text = result.found ? Compared(result, truth, &right) : result.progress;
-    tally.Add(result, right);
+    tally.Add(result, right, locate::AtOnce(result, truth));
     std::printf("start at %6.2f s: %s after %.2f s; %s%s\n", at, result.found ? "found" : "not found",
                 result.after_s, text.c_str(), Held(result).c_str());
+    if (o.trace) std::fputs(locate::TraceText(result, truth).c_str(), stdout);
     std::fflush(stdout);
   }
   std::printf("%s\n", tally.Line().c_str());
   return tally.wrong() == 0;
+}
+
+// What --without names.
+PlaceFinderOptions LeaveOut(const std::vector<std::string>& parts, int threads, SelfLocatorOptions* search) {
+  const auto out = [&parts](const char* part) {
+    return std::find(parts.begin(), parts.end(), part) != parts.end();
+  };
+  PlaceFinderOptions finder;
+  finder.threads = threads;
+  finder.panoramas = !out("panoramas");
+  finder.directions = !out("directions");
+  search->other_verticals = !out("verticals");
+  if (out("gravity")) search->up_s = kMoment;
+  return finder;
 }
 
 int Locate(const LocateOptions& o) {
@@ -101,8 +120,9 @@ int Locate(const LocateOptions& o) {
               1e-6 * static_cast<double>(map.places->MemoryBytes()),
               std::filesystem::exists(kept) ? (", kept for the next time in " + kept).c_str() : "");
   std::fflush(stdout);
+  const PlaceFinderOptions finder = LeaveOut(o.without, threads, &locating.search);
   const auto run = [&](Utime begin) {
-    return locate::RunLocator(streams, map, rig, options, locating, begin, o.seconds, o.hold, threads);
+    return locate::RunLocator(streams, map, rig, options, locating, finder, begin, o.seconds, o.hold);
   };
   if (o.starts > 0) return LocateOften(o, streams, run) ? 0 : 2;
   const Utime begin = streams.begin() + static_cast<Utime>(o.at * 1e6);
@@ -150,6 +170,14 @@ void AddLocateCommand(CLI::App* app) {
       ->needs(truth)
       ->excludes(at)
       ->excludes(picture);
+  locate->add_flag("--trace", o->trace, "With --starts: how each went, search by search")->needs(truth);
+  locate
+      ->add_option(
+          "--without", o->without,
+          "Parts to leave out, to see what they are worth: panoramas, directions (of edges), gravity (but "
+          "that of the last 0.1 s), verticals (other than the likeliest)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"panoramas", "directions", "gravity", "verticals"}));
   locate->footer(
       "Example: evit locate --log desk.lcmlog --map desk/map.pcd --rig desk/rig.textproto --at 2 --picture "
       "at2.png\n"

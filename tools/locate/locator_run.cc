@@ -35,10 +35,10 @@ KeyframeInput InputOf(Keyframe* keyframe) {
 class Session {
  public:
   Session(const PreparedMap& map, const Rig& rig, const PipelineOptions& options,
-          const LocatingTracker::Options& locating, int threads)
+          const LocatingTracker::Options& locating, const PlaceFinderOptions& finder)
       : map_(map),
         tracker_(MakeTracker(rig, TrackerPart(options), SE3()), rig, TrackerPart(options), locating),
-        finder_(*map.map, *map.places, rig, options.points, options.window, {48, 8, 900, threads}) {
+        finder_(*map.map, *map.places, rig, options.points, options.window, finder) {
     AnswerPoints();
   }
 
@@ -55,7 +55,10 @@ class Session {
         if (result->candidates.empty() && !answer.empty())
           result->candidates = answer, result->surface = question->surface;
       }
+      PlaceSearch search{question->t, question->everywhere, question->up_body, answer, ""};
       tracker_.AddPlaces(answer);
+      search.progress = tracker_.Progress();
+      result->asked.push_back(std::move(search));
     }
     return output;
   }
@@ -95,13 +98,14 @@ PreparedMap PrepareMap(const std::string& path, int threads) {
 
 LocatorResult RunLocator(const RecordedStreams& streams, const PreparedMap& map, const Rig& rig,
                          const PipelineOptions& options, const LocatingTracker::Options& locating,
-                         Utime begin, double seconds, double hold_s, int threads) {
+                         const PlaceFinderOptions& finder, Utime begin, double seconds, double hold_s) {
   const std::clock_t started = std::clock();
   Utime end = std::min(streams.end(), begin + static_cast<Utime>(seconds * 1e6));
   LocatorResult result;
+  result.begin = begin;
   std::size_t n_events = 0;
   Utime played = 0;
-  Session session(map, rig, options, locating, threads);
+  Session session(map, rig, options, locating, finder);
   KeyframeBuilder builder(rig, {options.keyframes, options.surface, Keyframe::Encoding::kTimeSurface}, true);
   auto sample = std::lower_bound(streams.imu().begin(), streams.imu().end(), begin,
                                  [](const ImuSample& s, Utime t) { return s.t < t; });

@@ -23,8 +23,18 @@ struct PreparedMap {
 /// progress.
 PreparedMap PrepareMap(const std::string& path, int threads);
 
+/// One keyframe's question, and what was answered.
+struct PlaceSearch {
+  Utime t = 0;
+  bool everywhere = true;   // else only what is followed
+  Eigen::Vector3d up_body;  // unit, the vertical that it was made with
+  std::vector<PlaceCandidate> candidates;
+  std::string progress;  // what the tracker made of it
+};
+
 /// What came of one start without a pose.
 struct LocatorResult {
+  Utime begin = 0;     // us
   bool found = false;  // the tracker says TRACKING
   double after_s = 0;  // sensor time from the start to that, or to the end of the part
   Utime t = 0;         // us: of the pose
@@ -39,12 +49,13 @@ struct LocatorResult {
   double cpu_s = 0;                        // in all, without preparing the map
   std::vector<PlaceCandidate> candidates;  // the first search's
   cv::Mat surface;                         // that it was about
+  std::vector<PlaceSearch> asked;          // one after the other
 };
 
 /// Starts a tracker without a pose at `begin` (us) of a recording and lets it run until it tracks, at most
 /// for `seconds`, and `hold_s` beyond: as the four services do, in one process and without a bus.
 LocatorResult RunLocator(const RecordedStreams& streams, const PreparedMap& map, const Rig& rig,
                          const PipelineOptions& options, const LocatingTracker::Options& locating,
-                         Utime begin, double seconds, double hold_s, int threads);
+                         const PlaceFinderOptions& finder, Utime begin, double seconds, double hold_s);
 
 }  // namespace evit::locate

@@ -11,8 +11,10 @@ constexpr double kSoon = 2;  // s of sensor time
 
 }  // namespace
 
-void StartTally::Add(const LocatorResult& result, bool right) {
+void StartTally::Add(const LocatorResult& result, bool right, Claim at_once) {
   ++starts_;
+  at_once_right_ += at_once == Claim::kRight ? 1 : 0;
+  at_once_wrong_ += at_once == Claim::kWrong ? 1 : 0;
   right_ += right ? 1 : 0;
   within_ += right && result.after_s <= kSoon ? 1 : 0;
   wrong_ += result.found && !right ? 1 : 0;
@@ -34,9 +36,9 @@ std::string StartTally::Line() const {
       "starts %d right %d within_2s %d wrong %d withdrawn %d cut %d after_s %.2f candidates %.1f "
       "events_per_s %.0f "
       "search_s %.2f "
-      "cpu_s %.2f",
+      "cpu_s %.2f at_once_right %d at_once_wrong %d",
       starts_, right_, within_, wrong_, withdrawn_, cut_, after.empty() ? 0 : *middle, candidates_ / n,
-      rate_ / n, search_ / n, cpu_ / n);
+      rate_ / n, search_ / n, cpu_ / n, at_once_right_, at_once_wrong_);
 }
 
 }  // namespace evit::locate
