@@ -39,7 +39,7 @@ FrameBuilder::FrameBuilder(Bus* bus, const Channels& channels, const Settings& s
 
 template <typename Message>
 void FrameBuilder::OnData(const std::uint8_t* data, std::size_t size) {
-  Message message;
+  Message message{};  // scalars too: it is swapped as a whole
   if constexpr (std::is_same_v<Message, event_packet_t>) std::swap(message, spare_);
   if (!DecodeChecked(data, size, &message)) {
     std::is_same_v<Message, event_packet_t> ? inbox_.CountInvalidEvents() : inbox_.CountInvalidImu();
