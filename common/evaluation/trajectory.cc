@@ -30,7 +30,9 @@ struct Row {
 std::vector<Row> ReadRows(const std::string& path, TumSkipped* skipped) {
   const TableSample sample = SampleTable(path, kLayout);
   const PoseColumns columns = PoseColumnsOf(sample);
-  const TimeUnit unit = UnitOfStamps(sample, columns.time, kSlowest);
+  if (HoldsMatrices(sample))
+    throw std::runtime_error(path + ": holds matrices; expected rows of " + std::string(kLayout));
+  const TimeUnit unit = UnitOfPoses(sample, columns, kSlowest);
   TableReader table(path, kLayout);
   std::vector<Row> rows;
   while (table.Next()) {

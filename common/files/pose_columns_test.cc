@@ -38,6 +38,8 @@ TEST(PoseColumns, HeadsOfOtherProgramsSayTheOrder) {
        "field.pose.position.z,field.pose.orientation.x,field.pose.orientation.y,field.pose.orientation.z,"
        "field.pose.orientation.w",
        "8,0,7,map,1,2,3,0.1,0.2,0.3,0.9"},
+      {"secs,nsecs,tx,ty,tz,qx,qy,qz,qw", "6,1000000000,1,2,3,0.1,0.2,0.3,0.9"},
+      {"header.stamp.sec,header.stamp.nanosec,frame,x,y,z,qx,qy,qz,qw", "7,0,map,1,2,3,0.1,0.2,0.3,0.9"},
       {"# ground truth of the arm", "7 1 2 3 0.1 0.2 0.3 0.9"},
       {"# x y z", "7 1 2 3 0.1 0.2 0.3 0.9"},  // names three of eight
   };
@@ -52,6 +54,16 @@ TEST(PoseColumns, HeadsOfOtherProgramsSayTheOrder) {
 
 TEST(PoseColumns, MissingNumberIsAnError) {
   EXPECT_THROW(Read("time,x,y,z,qw,qx,qy,qz", "7,1,2,3,0.9,0.1,0.2"), std::runtime_error);
+}
+
+TEST(PoseColumns, MatricesAreToldFromPoses) {
+  TableSample sample;
+  sample.rows = {{"7", "0", "-1", "0", "0.1", "1", "0", "0", "0.2", "0", "0", "1", "0.3"}};
+  EXPECT_TRUE(HoldsMatrices(sample));
+  sample.rows[0][2] = "-0.5";  // no rotation
+  EXPECT_FALSE(HoldsMatrices(sample));
+  sample.rows = {{"7", "1", "2", "3", "0", "0", "0", "1", "5", "5", "5", "5", "5"}};
+  EXPECT_FALSE(HoldsMatrices(sample));
 }
 
 }  // namespace

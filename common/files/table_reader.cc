@@ -218,6 +218,10 @@ std::size_t TableReader::WordsLeft() const {
   return n;
 }
 
+bool TableReader::CutOff(std::size_t words) const {
+  return line_end_ == end_ && next_ == end_ && input_.n_read >= input_.size && WordsLeft() < words;
+}
+
 void TableReader::End() {
   if (more()) Fail("more than \"" + layout_ + "\": is it the right file?");
 }

@@ -45,6 +45,8 @@ class TableReader {
   bool more();
   /// How many words the rest of the row has.
   std::size_t WordsLeft() const;
+  /// Whether the file ends within this row, as one does that is cut off: no line end, and fewer than `words`.
+  bool CutOff(std::size_t words) const;
   /// Throws unless the row ends here.
   void End();
 

@@ -66,6 +66,14 @@ TEST(ImuPlausibility, TakenOffGravityAndSwappedColumnsAreTold) {
   EXPECT_THAT(Changed(samples, [](ImuSample* s) { std::swap(s->accel, s->gyro); }), HasSubstr("swapped"));
 }
 
+// What is left without gravity can have a mean of any length, 1 as well.
+TEST(ImuPlausibility, TakenOffGravityIsNotTakenForAUnit) {
+  std::vector<ImuSample> samples = Handheld(10);
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    samples[k].accel = Eigen::Vector3d(k / 100 % 2 == 0 ? 0.95 : (k / 100 % 4 == 1 ? 0.3 : 2.5), 0, 0);
+  EXPECT_THAT(ImuComplaint(samples), HasSubstr("gravity seems to have been taken off"));
+}
+
 TEST(ImuPlausibility, DirectionOfGravityAtTheStart) {
   std::vector<ImuSample> samples = Handheld(0.3, 0.1);
   const Eigen::Quaterniond level = Eigen::Quaterniond::Identity();

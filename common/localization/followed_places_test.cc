@@ -32,7 +32,8 @@ TEST(FollowedPlaces, OfTwoThatMeetTheOneThatFittedAllTheWayStays) {
     t += kBetween;
     ASSERT_EQ(places.MoveTo(t, Still).size(), 2U);
     const bool first_is_right = places.all()[0].state.T_map_body.p.x() < 0.2;
-    places.AddAnswer(t, 2, {first_is_right ? At(0, 7.5) : At(0.4, 4.5), first_is_right ? At(0.4, 4.5) : At(0, 7.5)});
+    places.AddAnswer(
+        t, 2, {first_is_right ? At(0, 7.5) : At(0.4, 4.5), first_is_right ? At(0.4, 4.5) : At(0, 7.5)});
   }
   t += kBetween;
   places.MoveTo(t, Still);

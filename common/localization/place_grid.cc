@@ -7,7 +7,7 @@ namespace evit {
 namespace {
 
 constexpr double kRoomHeight = 2, kBeyondRoom = 0.2;  // m
-constexpr double kCell = 0.5;       // m: of a side, that holds edges or does not
+constexpr double kCell = 0.5;                         // m: of a side, that holds edges or does not
 constexpr float kWallDepth = 0.5F;  // m: edges so near to a side count as on it: furniture stands along walls
 constexpr double kClosed = 0.25;    // share of the cells of a wall, without its rim, that hold edges at least
 
@@ -27,7 +27,9 @@ Box BoxOf(const std::vector<EdgePoint>& edges) {
 // A side of the box across `axis`, in cells.
 bool Closed(const std::vector<EdgePoint>& edges, const Box& box, int axis, bool high) {
   const int across = 1 - axis;
-  const auto cells = [&](int a) { return static_cast<int>(std::min(1e3, (box.high[a] - box.low[a]) / kCell)) - 1; };
+  const auto cells = [&](int a) {
+    return static_cast<int>(std::min(1e3, (box.high[a] - box.low[a]) / kCell)) - 1;
+  };
   const int columns = cells(across), rows = cells(2);
   if (columns < 1 || rows < 1) return false;
   std::vector<bool> held(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));

@@ -7,7 +7,8 @@
 namespace evit {
 namespace {
 
-// Edges on walls of a room of 5 x 4 x 2.5 m, and along the floor's and the ceiling's rims; x low may be missing.
+// Edges on walls of a room of 5 x 4 x 2.5 m, and along the floor's and the ceiling's rims; x low may be
+// missing.
 std::vector<EdgePoint> Room(bool all_walls) {
   std::mt19937 rng(1);
   std::uniform_real_distribution<float> u(0, 1);
@@ -27,9 +28,8 @@ std::vector<EdgePoint> Room(bool all_walls) {
 }
 
 bool AnyAt(const PlaceGrid& grid, const Eigen::Vector3f& at) {
-  return std::any_of(grid.places.begin(), grid.places.end(), [&](const Eigen::Vector3f& p) {
-    return (p - at).norm() < grid.spacing;
-  });
+  return std::any_of(grid.places.begin(), grid.places.end(),
+                     [&](const Eigen::Vector3f& p) { return (p - at).norm() < grid.spacing; });
 }
 
 TEST(PlaceGrid, LiesWellBeyondASideWithoutAWall) {

@@ -5,8 +5,8 @@
 namespace evit {
 namespace {
 
-constexpr double kAtOnce = 5;   // searches one after the other, of one keyframe
-constexpr double kPerS = 10;    // searches in the long run: what two slow cores can do
+constexpr double kAtOnce = 5;        // searches one after the other, of one keyframe
+constexpr double kPerS = 10;         // searches in the long run: what two slow cores can do
 constexpr Utime kApart = 2'000'000;  // us: what was tried longer ago says nothing
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 namespace evit {
 
-/// When to search the whole map, and with which vertical: a few searches at once at first, then so many a second
-/// while nothing that has been found convinces, and rarely from then on.
+/// When to search the whole map, and with which vertical: a few searches at once at first, then so many a
+/// second while nothing that has been found convinces, and rarely from then on.
 class SearchSchedule {
  public:
   /// `again_s`: between searches while something convinces.

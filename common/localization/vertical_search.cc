@@ -8,12 +8,12 @@
 namespace evit {
 namespace {
 
-constexpr double kReach = 0.14;     // rad: of a search
-constexpr double kMissed = 0.3;     // probability that a search with the right vertical misses
-constexpr double kForgotten = 2;    // s
-constexpr double kGrid = 0.06;      // rad
-constexpr int kFarthest = 10;       // of them: 34 degrees
-constexpr double kDoubt = 0.2;      // share of cases in which the estimate is worse than it says
+constexpr double kReach = 0.14;      // rad: of a search
+constexpr double kMissed = 0.3;      // probability that a search with the right vertical misses
+constexpr double kForgotten = 2;     // s
+constexpr double kGrid = 0.06;       // rad
+constexpr int kFarthest = 10;        // of them: 34 degrees
+constexpr double kDoubt = 0.2;       // share of cases in which the estimate is worse than it says
 constexpr double kDoubtSigma = 0.1;  // rad: then; and three times the estimate's own
 
 double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -29,8 +29,9 @@ double Density(double angle, double sigma) {
 Eigen::Vector3d VerticalSearch::Next(const Upright& upright, const Eigen::Quaterniond& R_now_before,
                                      double seconds) {
   for (Tried& tried : tried_) tried.up = R_now_before * tried.up, tried.age += seconds;
-  tried_.erase(std::remove_if(tried_.begin(), tried_.end(), [](const Tried& t) { return t.age > kForgotten; }),
-               tried_.end());
+  tried_.erase(
+      std::remove_if(tried_.begin(), tried_.end(), [](const Tried& t) { return t.age > kForgotten; }),
+      tried_.end());
   // An even grid of verticals around the estimate, which is the first; and how likely each is.
   struct Vertical {
     Eigen::Vector3d up;

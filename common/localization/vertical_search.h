@@ -8,9 +8,9 @@
 namespace evit {
 
 /// Which vertical to search the map with next. A search finds the place where its vertical is right to some 8
-/// degrees; in fast motion nobody knows it so well. So each search takes the vertical around which lies most of
-/// the probability that no search before has tried. A search may fail for other reasons too, so what was tried
-/// becomes less likely, not impossible, and counts less as it grows old.
+/// degrees; in fast motion nobody knows it so well. So each search takes the vertical around which lies most
+/// of the probability that no search before has tried. A search may fail for other reasons too, so what was
+/// tried becomes less likely, not impossible, and counts less as it grows old.
 class VerticalSearch {
  public:
   void Clear() { tried_.clear(); }

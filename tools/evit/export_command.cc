@@ -9,6 +9,7 @@
 #include "common/evaluation/trajectory.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/formats/export/export_log.h"
 #include "tools/formats/export/export_results.h"
 #include "tools/terminal/progress_bar.h"
@@ -35,6 +36,8 @@ void AddExportLog(CLI::App* app, const char* name, const char* text, formats::Ex
                         "WxH of the sensor, for the header (default: what holds all events)");
   command->callback([o] {
     if (!o->size.empty()) ParseSize(o->size, &o->job.width, &o->job.height);
+    if (o->job.format != formats::ExportFormat::kRpg) RequireOutput("--out", o->job.out);
+    RequireNoInput("--out", o->job.out, {o->job.log});
     formats::ExportSummary s;
     {
       terminal::ProgressBar bar("exporting " + o->job.log);
@@ -71,7 +74,10 @@ void AddExportResults(CLI::App* app) {
   command->footer("Example: evit export results desk_result --format euroc --out desk.csv");
   command->callback([o] {
     const bool folder = std::filesystem::is_directory(o->from);
-    Trajectory trajectory = ReadTum(folder ? o->from + "/trajectory.tum" : o->from);
+    const std::string from = folder ? o->from + "/trajectory.tum" : o->from;
+    RequireOutput("--out", o->out);
+    RequireNoInput("--out", o->out, {from, o->camera_of});
+    Trajectory trajectory = ReadTum(from);
     if (!o->camera_of.empty()) trajectory = formats::CameraTrajectory(trajectory, LoadRig(o->camera_of));
     formats::WriteTrajectory(o->out, kFormats.at(o->format), trajectory);
     std::printf("%s: %zu poses%s\n", o->out.c_str(), trajectory.size(),

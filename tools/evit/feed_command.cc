@@ -6,14 +6,17 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "common/bus/lcm_bus.h"
 #include "common/bus/log_file.h"
+#include "common/files/staged_file.h"
 #include "common/service/runner.h"
 #include "common/service/stop_signals.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/feed/fake_camera.h"
 #include "tools/feed/feed_loop.h"
 
@@ -67,12 +70,15 @@ void Feed(const FeedCommand& o) {
   const std::unique_ptr<feed::FeedInput> input = OpenInput(o);
   if (o.to_stdout) return CopyRecords(input.get(), stop);
   std::unique_ptr<Bus> bus;
+  std::optional<StagedFile> file;
   std::unique_ptr<LogWriter> log;
-  const std::string part = o.out + ".part";
   if (o.out.empty()) {
     bus = OpenLcmBus(ResolveLcmUrl(o.lcm_url));
   } else {
-    log = std::make_unique<LogWriter>(part);
+    RequireLogOutput("--out", o.out);
+    RequireNoInput("--out", o.out, {o.from});
+    file.emplace(o.out);
+    log = std::make_unique<LogWriter>(file->part());
   }
   Utime logged =
       std::numeric_limits<Utime>::min();  // a log's stamps increase; packets come up to 5 ms after the IMU
@@ -92,29 +98,23 @@ void Feed(const FeedCommand& o) {
   const bool tty = isatty(STDERR_FILENO) == 1;
   Clock::time_point shown;
   std::fprintf(stderr, "evit feed: reading %s\n", input->name().c_str());
-  try {
-    feed::RunFeed(
-        input.get(), &publisher, [&] { return stop.received(); },
-        [&](const feed::FeedCounts& c) {
-          const Clock::time_point now = Clock::now();
-          if (!tty && now - shown < std::chrono::seconds(3)) return;
-          shown = now;
-          std::fprintf(stderr, tty ? "\r%lld events, %lld IMU samples" : "%lld events, %lld IMU samples\n",
-                       static_cast<long long>(c.events), static_cast<long long>(c.imu));
-        });
-    if (publisher.counts().events == 0) throw std::runtime_error(input->name() + ": sent no events");
-    if (log) log->Close();
-  } catch (...) {
-    if (log) std::remove(part.c_str());
-    throw;
-  }
+  feed::RunFeed(
+      input.get(), &publisher, [&] { return stop.received(); },
+      [&](const feed::FeedCounts& c) {
+        const Clock::time_point now = Clock::now();
+        if (!tty && now - shown < std::chrono::seconds(3)) return;
+        shown = now;
+        std::fprintf(stderr, tty ? "\r%lld events, %lld IMU samples" : "%lld events, %lld IMU samples\n",
+                     static_cast<long long>(c.events), static_cast<long long>(c.imu));
+      });
+  if (publisher.counts().events == 0) throw std::runtime_error(input->name() + ": sent no events");
+  if (log) log->Close();
   if (tty) std::fputc('\n', stderr);
   PrintCounts(publisher.counts(), std::chrono::duration<double>(Clock::now() - begin).count());
   if (bus && bus->send_errors() > 0)
     throw std::runtime_error(std::to_string(bus->send_errors()) +
                              " messages could not be sent; is the LCM URL's network up?");
-  if (log && std::rename(part.c_str(), o.out.c_str()) != 0)
-    throw std::runtime_error(o.out + ": cannot be written");
+  if (file) file->Commit();
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include <csignal>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -11,6 +10,7 @@
 #include "tools/evit/commands.h"
 #include "tools/evit/import_options.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/terminal/progress_bar.h"
 
 namespace evit::commands {
@@ -59,21 +59,10 @@ void ImportOptions::Apply(formats::ImportTarget* target) const {
   if (!seconds.empty()) target->seconds = ParseSeconds(seconds);
 }
 
-// Said before a long recording is read.
-void RequireFolderOf(const std::string& out) {
-  const std::filesystem::path folder = std::filesystem::path(out).parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder))
-    throw std::runtime_error("--out " + out + ": there is no folder " + folder.string() + "; mkdir -p " +
-                             folder.string());
-  if (std::filesystem::is_directory(out))
-    throw std::runtime_error("--out " + out + ": is a folder; give the log a name, such as " +
-                             (std::filesystem::path(out) / "recording.lcmlog").lexically_normal().string());
-}
-
 void RunImport(const std::string& label, const formats::ImportTarget& target, const std::string& no_truth,
                const std::function<formats::ImportSummary(const std::function<void(double)>&)>& work) {
   formats::ImportSummary s;
-  RequireFolderOf(target.out);
+  RequireLogOutput("--out", target.out);  // said before a long recording is read
   const StopSignals signals;
   std::signal(SIGPIPE, SIG_IGN);  // with `| head` the log is still written whole
   try {
@@ -92,11 +81,16 @@ void RunImport(const std::string& label, const formats::ImportTarget& target, co
   std::printf(
       "%s: %.1f s, %lld events in %lld packets (%.2f million/s), %lld IMU samples, %lld truth poses\n",
       target.out.c_str(), s.seconds, static_cast<long long>(s.n_events), static_cast<long long>(s.n_packets),
-      1e-6 * static_cast<double>(s.n_events) / s.seconds, static_cast<long long>(s.n_imu),
+      s.seconds > 0 ? 1e-6 * static_cast<double>(s.n_events) / s.seconds : 0, static_cast<long long>(s.n_imu),
       static_cast<long long>(s.n_truth));
   PrintDropped(s.dropped_events, "events");
   PrintDropped(s.dropped_imu, "IMU samples");
   PrintDropped(s.dropped_truth, "truth poses");
+  constexpr double kShort = 0.05;  // s
+  if (s.seconds < kShort && s.n_events >= 1000)
+    std::printf(
+        "only %.6f s long: if it is longer, name the unit of its stamps in the head (t_ms, t_us, t_ns)\n",
+        s.seconds);
   if (s.n_truth == 0) std::printf("no ground truth (%s): runs on it cannot be scored\n", no_truth.c_str());
 }
 

@@ -1,7 +1,9 @@
 // `evit import`, the program.
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "common/config/rig_file.h"
 #include "common/evaluation/trajectory.h"
@@ -134,6 +136,44 @@ TEST_F(ImportCommandTest, ACalibrationOfAnotherCameraLeavesNothingBehind) {
       HasSubstr("is of a camera of 1280x720"));
   EXPECT_FALSE(std::filesystem::exists(log_));
   EXPECT_FALSE(std::filesystem::exists(rig_path));
+}
+
+// What is read, under whatever name or link, is never what is written; nor is another kind of file.
+TEST_F(ImportCommandTest, NoInputIsOverwritten) {
+  const std::string events = folder_.File("events.txt"), imu = folder_.File("imu.txt"),
+                    link = folder_.File("link"), truth = log_ + ".truth.tum";
+  const auto write = [](const std::string& path, const char* text) { std::ofstream(path) << text; };
+  write(events, "0.001 1 2 1\n0.002 3 4 0\n");
+  write(imu, "0 0 0 9.81 0 0 0\n0.003 0 0 9.81 0 0 0\n");
+  write(truth, "0 0 0 0 0 0 0 1\n0.003 0 0 0 0 0 0 1\n");
+  std::filesystem::create_symlink(events, link);
+  const auto size = [&] { return std::filesystem::file_size(events) + std::filesystem::file_size(imu); };
+  const auto before = size();
+  EXPECT_THAT(Import(events + " --out " + events, 1), HasSubstr("is an input, which would be lost"));
+  EXPECT_THAT(Import(events + " --out " + link, 1), HasSubstr(link + ": is " + events));
+  EXPECT_THAT(Import(events + " --imu " + imu + " --out " + imu, 1), HasSubstr("which would be lost"));
+  EXPECT_THAT(Import(events + " --truth " + truth + " --out " + log_, 1), HasSubstr("which would be lost"));
+  EXPECT_THAT(Import(events + " --out " + imu, 1), HasSubstr("exists and is no log"));
+  EXPECT_EQ(size(), before);
+  Import(events + " --out " + log_, 0);
+  Import(events + " --out " + log_, 0);  // a log may be made again
+  EXPECT_THAT(test::RunEvit("export evt3 " + log_ + " --out " + log_).output, HasSubstr("is an input"));
+}
+
+TEST_F(ImportCommandTest, OptionsWithoutEffectAreRefused) {
+  const std::string events = folder_.File("events.txt");
+  std::ofstream(events) << "0.001 1 2 1\n0.002 3 4 0\n";
+  EXPECT_THAT(Import(events + " --imu-offset 0.1 --out " + log_, 1), HasSubstr("there is no IMU"));
+  EXPECT_THAT(Import(events + " --imu-topic /imu --out " + log_, 1), HasSubstr("has no topics"));
+  EXPECT_THAT(Import(events + " --events-topic left --out " + log_, 1), HasSubstr("leave the option out"));
+}
+
+TEST_F(ImportCommandTest, APipeIsNoOutput) {
+  const std::string events = folder_.File("events.txt"), pipe = folder_.File("pipe");
+  std::ofstream(events) << "0.001 1 2 1\n0.002 3 4 0\n";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(Import(events + " --out " + pipe, 1), HasSubstr("is a device or a pipe"));
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 }  // namespace

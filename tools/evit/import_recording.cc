@@ -11,6 +11,7 @@
 #include "common/geometry/pose_text.h"
 #include "tools/evit/import_options.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/formats/calibration_files/read_calibration.h"
 
 namespace evit::commands {
@@ -67,10 +68,22 @@ void WriteFoundRig(const RecordingOptions& o, const formats::ImportSummary& summ
               o.found->imu_assumed ? "; IMU noise: a consumer IMU's is assumed" : "");
 }
 
+void RequireOthersThanInputs(const RecordingOptions& o) {
+  std::vector<std::string> inputs = o.job.paths;
+  inputs.insert(inputs.end(), {o.job.imu, o.job.truth, o.rig});
+  inputs.insert(inputs.end(), o.calibration.begin(), o.calibration.end());
+  RequireNoInput("--out", o.shared.out, inputs);
+  RequireNoInput("--out", o.shared.out + ".truth.tum", inputs);
+  if (o.rig_out.empty()) return;
+  RequireOutput("--rig-out", o.rig_out);
+  RequireNoInput("--rig-out", o.rig_out, inputs);
+}
+
 void ImportAny(RecordingOptions* o) {
   if (o->job.paths.empty())
     throw std::runtime_error("no recording given: evit import FILE --out LOG, or evit import --help");
   if (o->shared.out.empty()) throw std::runtime_error("--out is missing: the log to write");
+  RequireOthersThanInputs(*o);
   o->shared.Apply(&o->job);
   if (!o->size.empty()) ParseSize(o->size, &o->job.width, &o->job.height);
   if (!o->rig.empty()) {
@@ -130,9 +143,10 @@ void AddImportRecording(CLI::App* import) {
   import->add_option("--truth", o->job.truth,
                      "Another file with the truth: a table (TUM, EuRoC, ...), HDF5, a bag; none: no truth");
   formats::StreamChoice& choice = o->job.choice;
-  import->add_option("--events-topic", choice.events,
-                     "Events to take where there are several: a bag's topic, a group of HDF5");
-  import->add_option("--imu-topic", choice.imu, "Of a bag: IMU to take (default: the only one)");
+  import->add_option(
+      "--events-topic", choice.events,
+      "Events to take where there are several: a bag's topic, a group of HDF5, a camera of AEDAT 4");
+  import->add_option("--imu-topic", choice.imu, "Of a bag or AEDAT 4: IMU to take (default: the only one)");
   import->add_option("--truth-topic", choice.truth,
                      "Of a bag: pose, odometry or transform to take (default: the only one)");
   import->footer(

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/files/staged_file.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/usage_error.h"
 
@@ -66,6 +67,7 @@ int Main(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  evit::RemoveStagedFilesOnSignals();
   try {
     return Main(argc, argv);
   } catch (const std::exception& error) {

@@ -2,11 +2,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "common/config/rig_file.h"
 #include "common/geometry/degrees.h"
 #include "common/geometry/se3.h"
+#include "common/service/stop_signals.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/data_file.h"
 #include "tools/evit/options.h"
@@ -48,11 +50,20 @@ void Run(const SimulateOptions& options) {
   settings.command = CommandLineOfThis();
   const std::string rig = options.rig().empty() ? DataFile("config/vector/rig.textproto") : options.rig();
   simulation::SimulationSummary summary;
-  {
+  const StopSignals signals;
+  try {
     terminal::ProgressBar bar("simulating");
     summary = simulation::Simulate(settings, LoadRig(rig),
                                    "simulated, from " + std::filesystem::path(rig).filename().string(),
-                                   [&](double share) { bar.Show(share); });
+                                   [&](double share) {
+                                     // Thrown, so that all that was begun is taken away on the way out.
+                                     if (signals.received()) throw std::runtime_error("interrupted");
+                                     bar.Show(share);
+                                   });
+  } catch (const std::runtime_error&) {
+    if (!signals.received()) throw;
+    std::fprintf(stderr, "evit simulate: interrupted; nothing was written\n");
+    throw CLI::RuntimeError(130);
   }
   if (settings.map_only) {
     std::printf("%s: map points %zu of %d views, written to %s\n", summary.name.c_str(), summary.n_map_points,

@@ -17,7 +17,8 @@ class SearchTraceTest : public ::testing::Test {
     for (int k = 0; k < 40; ++k) truth_.push_back({kBegin + k * Utime{100'000}, SE3()});
     result_.begin = kBegin;
   }
-  void Ask(double at, bool everywhere, const std::vector<PlaceCandidate>& candidates, const std::string& said) {
+  void Ask(double at, bool everywhere, const std::vector<PlaceCandidate>& candidates,
+           const std::string& said) {
     result_.asked.push_back({kBegin + static_cast<Utime>(1e6 * at), everywhere,
                              Eigen::Vector3d(0, std::sin(0.1), std::cos(0.1)), candidates, said});
   }

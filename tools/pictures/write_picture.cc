@@ -1,25 +1,25 @@
 #include "tools/pictures/write_picture.h"
 
-#include <cstdio>
-#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
+
+#include "common/files/staged_file.h"
 
 namespace evit::pictures {
 
 void WritePicture(const std::string& path, const cv::Mat& picture) {
-  const std::string part = path + ".part" + std::filesystem::path(path).extension().string();
+  StagedFile file(path, StagedFile::Name::kPartExtension);
   bool written = false;
   try {
-    written = cv::imwrite(part, picture);
+    written = cv::imwrite(file.part(), picture);
   } catch (const cv::Exception&) {  // a kind of picture that OpenCV does not know
   }
-  if (!written || std::rename(part.c_str(), path.c_str()) != 0) {
-    std::remove(part.c_str());
+  if (!written) {
     throw std::runtime_error(path +
                              ": cannot be written; check that the folder exists, is writable and has room, "
                              "and the name ends in .png");
   }
+  file.Commit();
 }
 
 }  // namespace evit::pictures

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/config/rig_file.h"
+#include "common/files/staged_file.h"
 #include "common/map/map_file.h"
 #include "common/service/stop_signals.h"
 #include "tools/render/gif_writer.h"
@@ -85,20 +86,13 @@ int RenderRun(const RenderOptions& o) {
   const RecordedRun run(o.log, o.prefix);
   const std::vector<std::int64_t> moments = Moments(run, o);
   RunPainter painter(&run, LoadMap(o.map).map, LoadRig(o.rig), o.paint);
-  // The ending stays: it tells OpenCV what to write.
-  const std::string part = (out.parent_path() / (out.stem().string() + ".part" + kind)).string();
-  try {
-    if (kind == ".gif") {
-      WriteGif(part, o, moments, &painter);
-    } else {
-      WriteMp4(part, o, moments, &painter);
-    }
-    fs::rename(part, out);
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    throw;
+  StagedFile file(o.out, StagedFile::Name::kPartExtension);  // OpenCV tells from it what to write
+  if (kind == ".gif") {
+    WriteGif(file.part(), o, moments, &painter);
+  } else {
+    WriteMp4(file.part(), o, moments, &painter);
   }
+  file.Commit();
   return static_cast<int>(moments.size());
 }
 

@@ -2,12 +2,11 @@
 
 #include <google/protobuf/util/json_util.h>
 
-#include <cstdio>
-#include <fstream>
 #include <stdexcept>
 
 #include "common/evaluation/trajectory_error.h"
 #include "common/evaluation/trajectory_pairs.h"
+#include "common/files/whole_file.h"
 #include "common/geometry/degrees.h"
 
 namespace evit::run {
@@ -97,14 +96,10 @@ void WriteReport(const std::string& path, const report::Report& report) {
   options.always_print_primitive_fields = true;  // a reader need not know that 0 is left out
   std::string json;
   const auto status = google::protobuf::util::MessageToJsonString(report, &json, options);
-  const std::string part = path + ".part";
-  std::ofstream file(part);
-  file << json;
-  file.close();
-  if (!status.ok() || !file || std::rename(part.c_str(), path.c_str()) != 0) {
-    std::remove(part.c_str());
-    throw std::runtime_error(path + ": cannot be written");
-  }
+  if (!status.ok()) throw std::runtime_error(path + ": " + status.ToString());
+  WholeFile file(path);
+  file.stream() << json;
+  file.Commit();
 }
 
 }  // namespace evit::run

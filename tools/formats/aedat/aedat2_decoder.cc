@@ -45,12 +45,12 @@ std::size_t Aedat2Decoder::Decode(const std::uint8_t* data, std::size_t size, Ev
     if (before_ > 0xF000'0000U && stamp < 0x1000'0000U) base_ += Utime{1} << 32;
     before_ = stamp;
     const Utime t = base_ + stamp;
-    // jAER counts rows from the bottom and a DAVIS's columns from the right. Pixels that are not on the
-    // sensor become large.
+    // jAER counts rows from the bottom and columns from the right; a DVS128's lowest bit is set where it got
+    // darker. Pixels that are not on the sensor become large.
     if (dvs128) {
       if ((address & 0x8000) != 0) continue;  // external event
-      events->push_back(t, (address >> 1) & 0x7F, static_cast<std::uint16_t>(127 - ((address >> 8) & 0x7F)),
-                        address & 1);
+      events->push_back(t, static_cast<std::uint16_t>(127 - ((address >> 1) & 0x7F)),
+                        static_cast<std::uint16_t>(127 - ((address >> 8) & 0x7F)), (address & 1) ^ 1);
     } else if (address >> 31 != 0) {
       if (((address >> 10) & 3) == 3) Imu(address, t, imu);  // else a frame's pixel
     } else if (((address >> 10) & 1) == 0) {

@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <stdexcept>
+#include <vector>
 
 #include "common/geometry/degrees.h"
 #include "common/imu/standard_gravity.h"
@@ -58,22 +59,48 @@ class Aedat4Events : public EventSource {
   EventFilter filter_;
 };
 
+// The stream of a type that is asked for by number or camera, or the only one; -1 where there is none.
+int Choose(const Aedat4Packets& packets, const char* type, const std::string& requested, const char* option) {
+  std::string names;
+  std::vector<int> found;
+  for (const auto& [id, stream] : packets.streams()) {
+    if (stream.type != type) continue;
+    names += (names.empty() ? "" : ", ") + std::to_string(id) + " (" + stream.source + ")";
+    if (requested.empty() || requested == std::to_string(id) || requested == stream.source)
+      found.push_back(id);
+  }
+  if (found.size() > 1 || (found.empty() && !requested.empty()))
+    packets.file().Fail("choose a stream of type " + std::string(type) + " with " + option + ": " +
+                        (names.empty() ? "there is none" : names));
+  return found.empty() ? -1 : found.front();
+}
+
+// The IMU of a camera, or the only one in a file of one camera, whatever its name.
+int ImuOf(const Aedat4Packets& packets, const std::string& camera) {
+  std::vector<int> own, all;
+  int cameras = 0;
+  for (const auto& [id, stream] : packets.streams()) {
+    cameras += stream.type == "EVTS" ? 1 : 0;
+    if (stream.type != "IMUS") continue;
+    all.push_back(id);
+    if (stream.source == camera || camera.empty()) own.push_back(id);
+  }
+  if (!own.empty()) return own.front();
+  return all.size() == 1 && cameras == 1 ? all.front() : -1;
+}
+
 }  // namespace
 
-Aedat4Recording::Aedat4Recording(const std::string& path) : path_(path) {
+Aedat4Recording::Aedat4Recording(const std::string& path, const std::string& events, const std::string& imu)
+    : path_(path) {
   const Aedat4Packets packets(path);
-  for (const auto& [id, stream] : packets.streams()) {
-    if (stream.type != "EVTS" || events_ >= 0) continue;
-    events_ = id;
-    info_.sensor = stream.source;
-    info_.width = stream.width;
-    info_.height = stream.height;
-  }
+  events_ = Choose(packets, "EVTS", events, "--events-topic");
   if (events_ < 0) packets.file().Fail("holds no stream of events (EVTS)");
-  for (const auto& [id, stream] : packets.streams()) {
-    if (stream.type == "IMUS" && imu_ < 0 && (stream.source == info_.sensor || info_.sensor.empty()))
-      imu_ = id;
-  }
+  const AedatStream& stream = packets.streams().at(events_);
+  info_.sensor = stream.source;
+  info_.width = stream.width;
+  info_.height = stream.height;
+  imu_ = imu.empty() ? ImuOf(packets, stream.source) : Choose(packets, "IMUS", imu, "--imu-topic");
   info_.format = std::string("AEDAT 4.0, ") + packets.compression();
 }
 

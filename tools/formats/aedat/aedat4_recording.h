@@ -8,12 +8,16 @@
 
 namespace evit::formats {
 
-/// An AEDAT 4 file of DV. Of several cameras it takes the first; frames and triggers are passed over.
+/// An AEDAT 4 file of DV. Frames and triggers are passed over.
 class Aedat4Recording : public Recording {
  public:
   static bool Recognises(const std::string& path) { return Aedat4Packets::Recognises(path); }
 
-  explicit Aedat4Recording(const std::string& path);
+  /// Of several streams of events or IMU samples `events` and `imu` choose one, by its number or by its
+  /// camera (empty: the only one; of the camera whose events are taken). Throws std::runtime_error naming the
+  /// file and the streams where they do not.
+  explicit Aedat4Recording(const std::string& path, const std::string& events = "",
+                           const std::string& imu = "");
   RecordingInfo info() const override { return info_; }
   std::unique_ptr<EventSource> Events(int width, int height) override;
   ImportStreams Streams() override;

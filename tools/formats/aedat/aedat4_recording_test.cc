@@ -120,5 +120,67 @@ TEST(Aedat4Recording, ARealFileOfACameraAtRestIsReadWhole) {
   EXPECT_LT((gyro / static_cast<double>(streams.imu.size())).norm(), 0.1);
 }
 
+std::string Stream(int id, const std::string& type, const std::string& source) {
+  return "<node name=\"" + std::to_string(id) + "\"><attr key=\"typeIdentifier\" type=\"string\">" + type +
+         "</attr><node name=\"info\"><attr key=\"sizeX\" type=\"int\">346</attr><attr key=\"sizeY\" "
+         "type=\"int\">260</attr><attr key=\"source\" type=\"string\">" +
+         source + "</attr></node></node>";
+}
+
+std::string Streams(const std::string& list) {
+  return "<dv version=\"2.0\"><node name=\"outInfo\" path=\"/mainloop/Recorder/outInfo/\">" + list +
+         "</node></dv>";
+}
+
+// A file of two cameras: which is meant cannot be told.
+TEST(Aedat4Recording, OfSeveralCamerasOneIsChosen) {
+  const TemporaryFolder folder("aedat4");
+  const std::string left = Message("EVTS", 1, Event(10, 1, 2, true)),
+                    right = Message("EVTS", 1, Event(11, 3, 4, true));
+  const std::string path =
+      folder.Write("a.aedat4", Header(Streams(Stream(0, "EVTS", "A") + Stream(2, "EVTS", "B")), 0) +
+                                   Packet(0, left) + Packet(2, right));
+  EXPECT_THAT([&] { Aedat4Recording{path}; },
+              ThrowsMessage<std::runtime_error>(HasSubstr("--events-topic: 0 (A), 2 (B)")));
+  EXPECT_THAT([&] { Aedat4Recording(path, "C"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("0 (A), 2 (B)")));
+  for (const char* name : {"B", "2"}) {
+    Aedat4Recording recording(path, name);
+    EXPECT_EQ(recording.info().sensor, "B");
+    EXPECT_EQ(AllEvents(&recording, 346, 260).t, std::vector<Utime>{11});
+  }
+}
+
+// The root's vector of one table: stamp 7 us, 1 g along x, 180 deg/s about z.
+std::string OneImuSample() {
+  std::string body = Bytes<std::uint32_t>(16) + "IMUS";
+  body += Bytes<std::uint16_t>(6) + Bytes<std::uint16_t>(8) + Bytes<std::uint16_t>(4) + std::string(2, '\0');
+  body += Bytes<std::int32_t>(8) + Bytes<std::uint32_t>(4);     // at 16; its vector at 24
+  body += Bytes<std::uint32_t>(1) + Bytes<std::uint32_t>(28);   // the sample's table at 56
+  body += Bytes<std::uint16_t>(20) + Bytes<std::uint16_t>(40);  // its vtable at 32
+  for (const int offset : {8, 0, 16, 20, 24, 28, 32, 36}) body += Bytes(static_cast<std::uint16_t>(offset));
+  body += std::string(4, '\0') + Bytes<std::int32_t>(24) + std::string(4, '\0') + Bytes<std::int64_t>(7);
+  for (const float value : {1.F, 0.F, 0.F, 0.F, 0.F, 180.F}) body += Bytes(value);
+  return Bytes(static_cast<std::uint32_t>(body.size())) + body;
+}
+
+TEST(Aedat4Recording, TheOnlyImuIsTakenWhateverItsName) {
+  const TemporaryFolder folder("aedat4");
+  const auto imu = [&](const std::string& streams) {
+    return Aedat4Recording(folder.Write("a.aedat4", Header(Streams(streams), 0) +
+                                                        Packet(0, Message("EVTS", 1, Event(10, 1, 2, true))) +
+                                                        Packet(1, OneImuSample())))
+        .Streams()
+        .imu;
+  };
+  for (const char* source : {"A", "", "an IMU of its own"}) {
+    const std::vector<ImuSample> samples = imu(Stream(0, "EVTS", "A") + Stream(1, "IMUS", source));
+    ASSERT_EQ(samples.size(), 1U) << source;
+    EXPECT_EQ(samples[0].t, 7);
+    EXPECT_NEAR(samples[0].accel.x(), 9.80665, 1e-5);
+    EXPECT_NEAR(samples[0].gyro.z(), 3.14159265, 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace evit::formats

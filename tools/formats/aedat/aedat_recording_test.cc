@@ -94,5 +94,20 @@ TEST(AedatRecording, PacketsOfCaerAreRead) {
               ThrowsMessage<std::runtime_error>(HasSubstr("is AEDAT 5.0")));
 }
 
+// As the format's authors' own extractRetina128EventsFromAddr.m decodes it.
+TEST(AedatRecording, ADvs128CountsColumnsFromTheRightAndMarksDarker) {
+  const TemporaryFolder folder("aedat");
+  std::string file = "#!AER-DAT2.0\r\n# AEChip: ch.unizh.ini.jaer.chip.retina.DVS128\r\n";
+  file += BigEndian(127U << 8 | 0U << 1 | 0U) + BigEndian(10);  // top right, brighter
+  file += BigEndian(0U << 8 | 127U << 1 | 1U) + BigEndian(11);  // bottom left, darker
+  file += BigEndian(0x8000U) + BigEndian(12);                   // external
+  AedatRecording recording(folder.Write("a.aedat", file));
+  const EventArray e = AllEvents(&recording, 128, 128);
+  EXPECT_EQ(e.t, (std::vector<Utime>{10, 11}));
+  EXPECT_EQ(e.x, (std::vector<std::uint16_t>{127, 0}));
+  EXPECT_EQ(e.y, (std::vector<std::uint16_t>{0, 127}));
+  EXPECT_EQ(e.p, (std::vector<std::uint8_t>{1, 0}));
+}
+
 }  // namespace
 }  // namespace evit::formats

@@ -1,12 +1,12 @@
 #include "tools/formats/export/export_log.h"
 
 #include <cstdio>
-#include <filesystem>
 #include <iomanip>
 #include <memory>
 #include <stdexcept>
 
 #include "common/files/decimal_time.h"
+#include "common/files/staged_file.h"
 #include "common/files/whole_file.h"
 #include "tools/formats/export/log_streams.h"
 #include "tools/formats/hdf5/event_file_writer.h"
@@ -78,7 +78,7 @@ ExportSummary ExportLog(const LogExport& job, const std::function<void(double)>&
     throw std::runtime_error(job.log + ": has stamps before zero, which these formats cannot hold");
   switch (job.format) {
     case ExportFormat::kRpg: {
-      std::filesystem::create_directories(job.out);
+      const StagedDirectory folder(job.out);
       WriteText(job, job.out + "/events.txt", progress);
       WriteBeside(job.out + "/imu.txt", job.out + "/groundtruth.txt", streams, 0);
       break;

@@ -1,9 +1,9 @@
 #include "tools/formats/hdf5/event_file_writer.h"
 
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
+#include "common/files/staged_file.h"
 #include "tools/formats/hdf5/h5_handle.h"
 #include "tools/formats/hdf5/zstd_filter.h"
 
@@ -50,7 +50,10 @@ class Column {
 };
 
 struct EventFileWriter::Impl {
+  explicit Impl(const std::string& name) : path(name), staged(name) {}
+
   std::string path;
+  StagedFile staged;  // outlives the file
   Utime t_offset = 0;
   H5Handle file;
   Column x, y, p, t, index;
@@ -58,21 +61,16 @@ struct EventFileWriter::Impl {
   std::vector<std::uint64_t> milliseconds;  // ms_to_idx: first event at or after each millisecond
   std::uint64_t count = 0;
   Utime last = std::numeric_limits<Utime>::min();
-  bool closed = false;
-
-  std::string part() const { return path + ".part"; }
 };
 
-EventFileWriter::EventFileWriter(const std::string& path, Utime t_offset) : impl_(std::make_unique<Impl>()) {
+EventFileWriter::EventFileWriter(const std::string& path, Utime t_offset)
+    : impl_(std::make_unique<Impl>(path)) {
   RegisterZstdFilter();
   Impl& w = *impl_;
-  w.path = path;
   w.t_offset = t_offset;
-  w.file = H5Handle(H5Fcreate(w.part().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
-  if (!w.file.ok()) {
-    w.closed = true;
+  w.file = H5Handle(H5Fcreate(w.staged.part().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+  if (!w.file.ok())
     throw std::runtime_error(path + ": cannot be written; check that the folder exists and is writable");
-  }
   const H5Handle group(H5Gcreate2(w.file.get(), "events", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   w.x.Create(w.file.get(), "events/x", H5T_STD_U16LE, H5T_NATIVE_UINT16);
   w.y.Create(w.file.get(), "events/y", H5T_STD_U16LE, H5T_NATIVE_UINT16);
@@ -87,11 +85,7 @@ EventFileWriter::EventFileWriter(const std::string& path, Utime t_offset) : impl
   H5Dwrite(offset.get(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &t_offset);
 }
 
-EventFileWriter::~EventFileWriter() {
-  if (impl_->closed) return;
-  impl_->file.Reset();
-  std::remove(impl_->part().c_str());
-}
+EventFileWriter::~EventFileWriter() = default;
 
 void EventFileWriter::Append(const EventArray& events) {
   Impl& w = *impl_;
@@ -126,9 +120,7 @@ void EventFileWriter::Close() {
   for (Column* column : {&w.x, &w.y, &w.p, &w.t, &w.index}) column->Close();
   if (H5Fflush(w.file.get(), H5F_SCOPE_GLOBAL) < 0) throw std::runtime_error(w.path + ": writing failed");
   w.file.Reset();
-  if (std::rename(w.part().c_str(), w.path.c_str()) != 0)
-    throw std::runtime_error(w.path + ": cannot be written");
-  w.closed = true;
+  w.staged.Commit();
 }
 
 }  // namespace evit::formats

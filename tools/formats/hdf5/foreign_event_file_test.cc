@@ -118,6 +118,8 @@ TEST_F(ForeignEventFileTest, PolaritiesOfNoOneMeaningAreRefused) {
   ExpectError("events/p", "the polarity is 2");
   Put("events/p", H5T_NATIVE_INT8, std::vector<std::int8_t>{-1, 0, 1, 1});
   ExpectError("events/p", "0 and -1 both occur");
+  Put("events/p", H5T_NATIVE_UINT8, std::vector<std::uint8_t>{255, 0, 255, 0});
+  ExpectError("events/p", "0 and 255 both occur");
   Put("events/p", H5T_NATIVE_DOUBLE, std::vector<double>{0, 0.5, 1, 0});
   ExpectError("events/p", "fraction");
 }

@@ -25,6 +25,17 @@ void RequireResolution(const H5Rows& t, double micros_per_unit) {
       "float64");
 }
 
+// A file may promise any number of events; what it never stored reads as zeros.
+void RequireStored(const H5Rows& t) {
+  constexpr double kDensest = 5000;  // times as many bytes as stored; stamps increase, and pack far less
+  const std::optional<std::uint64_t> stored = t.stored();
+  if (!stored || static_cast<double>(t.rows()) * static_cast<double>(t.bytes()) <=
+                     kDensest * static_cast<double>(*stored))
+    return;
+  t.Fail("has " + std::to_string(t.rows()) + " entries by its shape, but the file stores only " +
+         std::to_string(*stored) + " bytes of them: it was not written to its end");
+}
+
 }  // namespace
 
 H5EventReader::H5EventReader(const H5File& file, const H5EventLayout& layout)
@@ -37,6 +48,7 @@ H5EventReader::H5EventReader(const H5File& file, const H5EventLayout& layout)
                    std::to_string(size_) + ": the file is damaged; download it again");
     }
   }
+  RequireStored(t_);
   // Whole chunks, so that none is decompressed twice.
   const std::size_t chunk = std::min(t_.chunk_rows(), kLargestPiece);
   piece_ = std::max(kPiece / chunk, std::size_t{1}) * chunk;

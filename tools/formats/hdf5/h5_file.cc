@@ -57,6 +57,12 @@ std::string OneText(const H5Handle& type, const H5Handle& space, const ReadAs& r
   return value.substr(0, value.find('\0'));
 }
 
+// MATLAB stores columns first: its N x 4 is 4 x N here, and its N x 1 is 1 x N.
+bool LiesAcross(const std::vector<hsize_t>& shape) {
+  constexpr hsize_t kWidest = 16, kTelling = 32;  // columns; rows: fewer may be the other way round
+  return shape.size() == 2 && shape[0] <= kWidest && shape[1] >= kTelling && shape[1] >= 8 * shape[0];
+}
+
 }  // namespace
 
 struct H5Rows::Impl {
@@ -64,6 +70,7 @@ struct H5Rows::Impl {
   std::string path, name, member;  // of a compound; empty: none
   H5Handle dataset;
   std::vector<hsize_t> shape;
+  std::size_t along = 0;  // the dimension that rows follow one another in
   std::size_t columns = 1, chunk_rows = 1, bytes = 0;
   H5T_class_t type = H5T_NO_CLASS;
   bool is_signed = false;
@@ -94,8 +101,8 @@ void H5Rows::Impl::ReadInto(std::size_t begin, std::size_t n, hid_t number, void
     memory_type = only_member.get();
   }
   std::vector<hsize_t> start(shape.size(), 0), count = shape;
-  start[0] = begin;
-  count[0] = n;
+  start[along] = begin;
+  count[along] = n;
   const H5Handle source(H5Dget_space(dataset.get()), H5Sclose),
       target(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
   H5Sselect_hyperslab(source.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
@@ -104,7 +111,7 @@ void H5Rows::Impl::ReadInto(std::size_t begin, std::size_t n, hid_t number, void
 }
 
 const std::string& H5Rows::name() const { return impl_->name; }
-std::size_t H5Rows::rows() const { return impl_->shape[0]; }
+std::size_t H5Rows::rows() const { return impl_->shape[impl_->along]; }
 std::size_t H5Rows::columns() const { return impl_->columns; }
 std::size_t H5Rows::chunk_rows() const { return impl_->chunk_rows; }
 bool H5Rows::is_integer() const { return impl_->type == H5T_INTEGER || impl_->type == H5T_ENUM; }
@@ -123,6 +130,11 @@ std::vector<std::string> H5Rows::members() const {
   return names;
 }
 std::size_t H5Rows::bytes() const { return impl_->bytes; }
+std::optional<std::uint64_t> H5Rows::stored() const {
+  const H5Handle properties(H5Dget_create_plist(impl_->dataset.get()), H5Pclose);
+  if (H5Pget_layout(properties.get()) == H5D_VIRTUAL) return {};
+  return H5Dget_storage_size(impl_->dataset.get());
+}
 void H5Rows::Fail(const std::string& what) const {
   throw std::runtime_error(impl_->path + ": " + impl_->name + ": " + what);
 }
@@ -136,7 +148,13 @@ void H5Rows::Read(std::size_t begin, std::size_t n, std::vector<Number>* out) co
   hid_t type = MemoryType<Number>();
   // HDF5 would clip: -1 kept in 64 bits without sign is -1 again.
   if (type == H5T_NATIVE_INT64 && is_integer() && !is_signed()) type = H5T_NATIVE_UINT64;
-  if (n > 0) impl_->ReadInto(begin, n, type, out->data());
+  if (n == 0) return;
+  impl_->ReadInto(begin, n, type, out->data());
+  if (impl_->along == 0 || columns() == 1) return;
+  const std::vector<Number> across = *out;
+  for (std::size_t row = 0; row < n; ++row) {
+    for (std::size_t k = 0; k < columns(); ++k) (*out)[row * columns() + k] = across[k * n + row];
+  }
 }
 template void H5Rows::Read(std::size_t, std::size_t, std::vector<std::uint8_t>*) const;
 template void H5Rows::Read(std::size_t, std::size_t, std::vector<std::uint16_t>*) const;
@@ -160,7 +178,10 @@ H5File::H5File(const std::string& path) : path_(path) {
   RegisterFilters();
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0)
-    throw std::runtime_error(path + ": is not a complete HDF5 file (cut off or damaged); download it again");
+    throw std::runtime_error(
+        path +
+        ": is not a complete HDF5 file: cut off or damaged (download it again), or still being "
+        "written or never closed (h5clear -s FILE)");
   file_ = std::shared_ptr<void>(nullptr, [file](void*) { H5Fclose(file); });
   const auto visit = [](hid_t, const char* name, const H5O_info_t* info, void* list) -> herr_t {
     auto* names = static_cast<std::vector<std::string>*>(list);
@@ -193,14 +214,16 @@ H5Rows H5File::Open(const std::string& requested) const {
   const int rank = std::max(0, H5Sget_simple_extent_ndims(space.get()));
   rows->shape.resize(static_cast<std::size_t>(std::max(1, rank)), 1);
   if (rank > 0) H5Sget_simple_extent_dims(space.get(), rows->shape.data(), nullptr);
-  for (std::size_t k = 1; k < rows->shape.size(); ++k) {
+  rows->along = LiesAcross(rows->shape) ? 1 : 0;
+  for (std::size_t k = 0; k < rows->shape.size(); ++k) {
+    if (k == rows->along) continue;
     rows->columns *= std::min<std::size_t>(rows->shape[k], kMaxColumns + 1);
     rows->columns = std::min(rows->columns, kMaxColumns + 1);
   }
   if (H5Pget_layout(properties.get()) == H5D_CHUNKED) {
     std::vector<hsize_t> chunk(rows->shape.size(), 1);
     H5Pget_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data());
-    rows->chunk_rows = std::max<hsize_t>(1, chunk[0]);
+    rows->chunk_rows = std::max<hsize_t>(1, chunk[rows->along]);
   }
   H5Handle type(H5Dget_type(rows->dataset.get()), H5Tclose);
   if (!rows->member.empty()) {

@@ -3,12 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace evit::formats {
 
-/// A dataset of rows of numbers. Says what its numbers are, so that nobody converts what should be refused.
+/// A dataset of rows of numbers, which may stand across (MATLAB's). Says what its numbers are, so that nobody
+/// converts what should be refused.
 class H5Rows {
  public:
   struct Impl;
@@ -16,14 +18,15 @@ class H5Rows {
 
   const std::string& name() const;
   std::size_t rows() const;
-  std::size_t columns() const;     // numbers in a row: all dimensions but the first
+  std::size_t columns() const;     // numbers in a row: all other dimensions
   std::size_t chunk_rows() const;  // rows that are compressed together; at least 1
   bool is_number() const;          // whole numbers (bool too) or floats
   bool is_integer() const;
   bool is_signed() const;
   bool is_compound() const;
-  std::vector<std::string> members() const;  // of a compound, by their names
-  std::size_t bytes() const;                 // of one number
+  std::vector<std::string> members() const;     // of a compound, by their names
+  std::size_t bytes() const;                    // of one number
+  std::optional<std::uint64_t> stored() const;  // bytes in the file; none where they are in other files
 
   /// Rows [begin, begin + n) as ..., of all columns; throws std::runtime_error naming file and dataset, with
   /// the remedy where a filter is missing. Number: uint8_t, uint16_t, int64_t, double.

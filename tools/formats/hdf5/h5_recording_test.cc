@@ -236,5 +236,50 @@ TEST_F(H5RecordingTest, AFileWithoutEventsListsWhatItHas) {
       ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("holds no events"), HasSubstr("rectify_map"))));
 }
 
+// MATLAB's files of version 7.3: an N x 4 matrix is 4 x N, a column 1 x N.
+TEST_F(H5RecordingTest, WhatStandsAcrossIsRead) {
+  constexpr hsize_t kEvents = 40;
+  Doubles t, x, y, p;
+  for (int k = 0; k < static_cast<int>(kEvents); ++k)
+    t.push_back(7 + 25 * k), x.push_back(k % 3), y.push_back(100 + k % 5), p.push_back(k % 2);
+  const auto expect = [&] {
+    H5Recording recording({path_}, "");
+    const EventArray e = AllEvents(&recording, 640, 480);
+    ASSERT_EQ(e.size(), kEvents);
+    for (std::size_t k = 0; k < kEvents; ++k) {
+      EXPECT_EQ(static_cast<double>(e.t[k]), t[k]);
+      EXPECT_EQ(e.x[k], x[k]);
+      EXPECT_EQ(e.y[k], y[k]);
+      EXPECT_EQ(e.p[k], p[k]);
+    }
+  };
+  {
+    H5Maker file(path_);
+    Doubles all;
+    for (const Doubles* row : {&t, &x, &y, &p}) all.insert(all.end(), row->begin(), row->end());
+    file.Put("events", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, all.data(), {4, kEvents});
+  }
+  expect();
+  {
+    H5Maker file(path_);
+    for (const auto& [name, row] :
+         {std::pair("t", &t), std::pair("x", &x), std::pair("y", &y), std::pair("p", &p)})
+      file.Put(std::string("data/") + name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, row->data(), {1, kEvents});
+  }
+  expect();
+}
+
+TEST_F(H5RecordingTest, WhatWasNeverStoredIsRefused) {
+  const hid_t file = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+              how = H5Pcreate(H5P_DATASET_CREATE);
+  const hsize_t shape = hsize_t{1} << 40, chunk = 1000;
+  H5Pset_chunk(how, 1, &chunk);
+  const hid_t space = H5Screate_simple(1, &shape, nullptr);
+  for (const char* name : {"x", "y", "t", "p"})
+    H5Dclose(H5Dcreate2(file, name, H5T_STD_U32LE, space, H5P_DEFAULT, how, H5P_DEFAULT));
+  H5Sclose(space), H5Pclose(how), H5Fclose(file);
+  ExpectRefused("stores only 0 bytes");
+}
+
 }  // namespace
 }  // namespace evit::formats

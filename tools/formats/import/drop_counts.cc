@@ -29,7 +29,13 @@ std::string DropText(const DropCounts& dropped, const std::string& what) {
 void RequireMostKept(const std::string& name, const DropCounts& dropped, std::int64_t kept,
                      const std::string& what) {
   constexpr std::int64_t kFew = 10, kShare = 20;  // at most one in 20
+  constexpr std::int64_t kTelling = 1000;         // events
   const std::int64_t n = dropped.total();
+  if (dropped.from_one && n + kept >= kTelling)
+    throw std::runtime_error(name + ": columns and rows seem to be counted from 1: none is 0, and " +
+                             std::to_string(dropped.outside) +
+                             " lie one beyond the sensor; EVIT counts from 0: subtract 1 from both, or give "
+                             "--size if the sensor is larger");
   if (n == 0) return;
   if (n <= kFew ? n < kept : kShare * n <= n + kept) return;
   const bool order = 2 * (dropped.late + dropped.outlier) > n;

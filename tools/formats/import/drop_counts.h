@@ -16,6 +16,7 @@ struct DropCounts {
   std::int64_t outside = 0;    // pixel not on the sensor
   std::int64_t unstamped = 0;  // before the stream's first time stamp
   std::int64_t sorted = 0;     // not dropped: moved to their place in time
+  bool from_one = false;       // those outside are one column or row too far, and column and row 0 are empty
   bool cut_off = false;        // the file ends within a packet; what is before it was read
 
   std::int64_t total() const { return late + outlier + invalid + outside + unstamped; }

@@ -42,5 +42,22 @@ TEST(DropCounts, AFilterKeepsWhatIsOnTheSensor) {
   EXPECT_EQ(filter.dropped().outside, 3);
 }
 
+TEST(DropCounts, PixelsThatCountFromOneAreRefusedHoweverFewAreOutside) {
+  for (const int first : {0, 1}) {
+    EventFilter filter(40, 30);
+    for (int k = 0; k < 2000; ++k) filter.Keep(first + k % 40, first + k % 30);
+    EventArray one_more;
+    one_more.push_back(0, 40, 3, 1);
+    filter.Apply(&one_more);
+    const auto check = [&] { RequireMostKept("a.txt", filter.dropped(), 1900, "events"); };
+    if (first == 0) {
+      EXPECT_NO_THROW(check());
+    } else {
+      EXPECT_THAT(check,
+                  ::testing::ThrowsMessage<std::runtime_error>(::testing::HasSubstr("counted from 1")));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace evit::formats

@@ -25,13 +25,24 @@ std::string Name(const std::string& word) {  // "t[us]" and "T_us" to "t"
   return name;
 }
 
+// "secs" of "header.stamp.secs", with the point before it; empty: no such end.
+std::string LastPart(const std::string& word) {
+  const std::size_t point = word.find_last_of("._");
+  return point == std::string::npos ? "" : Name(word.substr(point + 1));
+}
+
 std::optional<Field> FieldNamed(const std::string& word) {
-  const std::string name = Name(word);
-  const auto is = [&](std::initializer_list<const char*> names) {
-    return std::any_of(names.begin(), names.end(), [&](const char* n) { return name == n; });
+  const std::string name = Name(word), last = LastPart(word);
+  const auto is_any = [](const std::string& text, std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(), [&](const char* n) { return text == n; });
   };
+  const auto is = [&](std::initializer_list<const char*> names) { return is_any(name, names); };
+  const bool one_column = is({"t", "time", "timestamp"});  // t_nsec: the time, in nanoseconds
+  if (!one_column && is_any(last, {"nsec", "nsecs", "nanosec", "nanosecs", "nanoseconds"}))
+    return EventColumns::kNanoseconds;
+  if (is_any(last, {"sec", "secs", "seconds"})) return EventColumns::kTime;
   if (is({"t", "ts", "time", "timestamp", "stamp", "sec", "secs", "seconds"})) return EventColumns::kTime;
-  if (is({"nsec", "nsecs", "nanosec", "nanoseconds"})) return EventColumns::kNanoseconds;
+  if (is({"nsec", "nsecs", "nanosec", "nanosecs", "nanoseconds"})) return EventColumns::kNanoseconds;
   if (is({"x", "u", "col", "column"})) return EventColumns::kX;
   if (is({"y", "v", "row"})) return EventColumns::kY;
   if (is({"p", "pol", "polarity", "sign"})) return EventColumns::kPolarity;
@@ -139,6 +150,15 @@ bool HoldsEvents(TableSample sample) {
              first.begin(), first.end(),
              [&](const std::string& word) { return ParseNumber(word, &value) || IsPolarity(word); }) &&
          ParseNumber(first[1], &value);
+}
+
+bool NamesEvents(const std::vector<std::string>& head) {
+  std::array<bool, 5> found{};
+  for (const ColumnName& column : NamedColumns(head)) {
+    if (const auto field = FieldNamed(column.name)) found[*field] = true;
+  }
+  return found[EventColumns::kTime] && found[EventColumns::kX] && found[EventColumns::kY] &&
+         found[EventColumns::kPolarity];
 }
 
 bool FitsEvents(const TableSample& sample) { return OrderOf(sample).has_value(); }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/files/table_sample.h"
 
@@ -25,6 +26,9 @@ struct EventColumns {
 EventColumns FindEventColumns(const std::string& path);
 /// The same of rows that were read already.
 EventColumns FindEventColumns(TableSample sample);
+
+/// Whether a head names all four of them.
+bool NamesEvents(const std::vector<std::string>& head);
 
 /// Whether rows of four numbers without names can be events, in any order.
 bool FitsEvents(const TableSample& sample);

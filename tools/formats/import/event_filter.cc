@@ -5,11 +5,12 @@
 namespace evit::formats {
 
 // One pass without branches over each array.
-bool EventFilter::AllGood(const EventArray& events) const {
-  const std::size_t n = events.size();
-  std::uint16_t x = 0, y = 0;
-  for (std::size_t k = 0; k < n; ++k) x = std::max(x, events.x[k]);
-  for (std::size_t k = 0; k < n; ++k) y = std::max(y, events.y[k]);
+bool EventFilter::AllGood(const EventArray& events) {
+  constexpr std::uint16_t kLargest = 65535;
+  std::uint16_t low_x = kLargest, low_y = kLargest, x = 0, y = 0;
+  for (const std::uint16_t column : events.x) low_x = std::min(low_x, column), x = std::max(x, column);
+  for (const std::uint16_t row : events.y) low_y = std::min(low_y, row), y = std::max(y, row);
+  if (events.size() > 0) extent_.Add(low_x, low_y), extent_.Add(x, y);
   return x < width_ && y < height_;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/files/decimal_time.h"
+#include "common/files/staged_file.h"
 #include "common/imu/imu_plausibility.h"
 #include "tools/formats/import/ordered_events.h"
 #include "tools/formats/import/stream_writer.h"
@@ -17,15 +18,6 @@ namespace {
 
 // A longer hole is a damaged time stamp, or two clocks: its silence would fill the log with empty packets.
 constexpr Utime kMaxHole = 600 * kMicrosPerSecond;
-
-// Removes a half-written file unless everything went well.
-struct PartFile {
-  std::string path;
-  bool kept = false;
-  ~PartFile() {
-    if (!kept) std::remove(path.c_str());
-  }
-};
 
 template <typename List>
 void Clip(List* list, Utime begin, Utime end) {
@@ -50,6 +42,16 @@ void CheckRate(const std::string& name, std::int64_t n, Utime span) {
       name + ": " + std::to_string(n) + " events in " + DecimalSeconds(span) +
       " s: the unit of the stamps is another one; name it in the head (t_us, t_ms, t_ns), or "
       "write seconds with six decimals");
+}
+
+// Stamps that were rounded away, as those since 1970 in 32-bit floats.
+void RequireTime(const std::string& name, std::int64_t n, std::int64_t n_stamps) {
+  constexpr std::int64_t kFew = 1000, kStamps = 10;
+  if (n < kFew || n_stamps > kStamps) return;
+  throw std::runtime_error(
+      name + ": its " + std::to_string(n) + " events have only " + std::to_string(n_stamps) +
+      " different stamps: were they rounded, as 32-bit floats of seconds since 1970 are? "
+      "Write them as integers or 64-bit floats");
 }
 
 double Rate(const std::vector<ImuSample>& imu) {
@@ -120,18 +122,19 @@ void CheckUnits(const ImportTarget& target, ImportStreams* streams) {
 }
 
 // Truth of an earlier import must not stay beside a log that has none.
-void PutInPlace(PartFile* part, const std::string& out, const Trajectory& truth) {
+void PutInPlace(StagedFile* log, const std::string& out, const Trajectory& truth) {
   const std::string truth_out = out + ".truth.tum";
   if (truth.empty()) {
     std::remove(truth_out.c_str());
   } else {
     WriteTum(truth_out, truth);
   }
-  if (std::rename(part->path.c_str(), out.c_str()) != 0) {
+  try {
+    log->Commit();
+  } catch (const std::runtime_error&) {
     std::remove(truth_out.c_str());
-    throw std::runtime_error(out + ": cannot be written");
+    throw;
   }
-  part->kept = true;
 }
 
 }  // namespace
@@ -164,19 +167,20 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* source, ImportS
   if (has_imu && streams.imu.size() < 2)
     throw std::runtime_error("the part asked for by --seconds holds no IMU samples");
 
-  PartFile part{target.out + ".part"};
+  StagedFile log(target.out);
   ImportSummary summary;
   Utime last = first;
-  std::int64_t n_read = 0;
+  std::int64_t n_read = 0, n_stamps = 1;
   {
     const std::string name = events->name();
-    StreamWriter writer(part.path, begin, streams.imu, streams.truth);
+    StreamWriter writer(log.part(), begin, streams.imu, streams.truth);
     for (; more; more = more && events->Read(&piece)) {
       n_read += static_cast<std::int64_t>(piece.size());
       const Utime before = last;
       CheckRate(name, n_read, piece.t.back() - first);
       for (std::size_t k = 0; k < piece.size() && last <= end; ++k) {
         CheckHole(name, last, piece.t[k]);
+        n_stamps += piece.t[k] != last ? 1 : 0;
         last = piece.t[k];
       }
       const auto at = [&](Utime t) {
@@ -195,6 +199,7 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* source, ImportS
                               : events->share());
     }
     RequireMostKept(events->name(), events->dropped(), n_read, "events");
+    RequireTime(name, n_read, n_stamps);
     if (summary.n_events == 0) throw std::runtime_error("the part asked for by --seconds holds no events");
     if (has_imu && streams.imu.front().t > last) {
       throw std::runtime_error(streams.imu_name + ": begins after the last event" +
@@ -204,7 +209,7 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* source, ImportS
     writer.Close(has_imu ? std::max(last, streams.imu.back().t) : last);
     summary.n_packets = writer.n_packets();
   }
-  PutInPlace(&part, target.out, streams.truth);
+  PutInPlace(&log, target.out, streams.truth);
   summary.n_imu = static_cast<std::int64_t>(streams.imu.size());
   summary.n_truth = static_cast<std::int64_t>(streams.truth.size());
   summary.seconds = ToSeconds(last - begin);

@@ -186,11 +186,28 @@ bool ReadRow(const ImuColumns& columns, TableReader* rows, ImuSample* sample) {
   return finite && sample->accel.allFinite() && sample->gyro.allFinite();
 }
 
+// Names that do not say it all, above more columns than an IMU needs: which they are cannot be told from
+// values.
+void RequirePlainColumns(const TableSample& sample, const std::string& path) {
+  constexpr std::size_t kNeeded = 7;
+  const std::size_t n = sample.rows.empty() ? 0 : sample.rows.front().size();
+  const std::vector<ColumnName> names = NamedColumns(sample.head);
+  if (n <= kNeeded || names.size() != n) return;
+  std::string unknown;
+  for (const ColumnName& name : names) {
+    if (FieldNamed(name.name) == ImuColumns::kIgnored) unknown += (unknown.empty() ? "" : ", ") + name.name;
+  }
+  throw std::runtime_error(
+      path + ": the names of its columns do not tell time, gyro and accelerometer (not known: " + unknown +
+      "); name them in the first line: timestamp gyro_x gyro_y gyro_z accel_x accel_y accel_z");
+}
+
 }  // namespace
 
 ImuColumns FindImuColumns(const TableSample& sample, const std::string& path, ImuOrder usual) {
   ImuColumns columns;
   if (!ByHead(sample, &columns)) {
+    RequirePlainColumns(sample, path);
     columns.field = {ImuColumns::kTime};
     if (SecondsAndNanoseconds(sample)) columns.field.push_back(ImuColumns::kNanoseconds);
     const std::size_t first = columns.field.size();
@@ -219,6 +236,10 @@ std::vector<ImuSample> ReadImuRows(const std::string& path, const std::string& l
   const ImuColumns columns = FindImuColumns(sample, path, usual);
   TableReader rows(path, layout);
   while (rows.Next()) {
+    if (rows.CutOff(words)) {
+      dropped->cut_off = true;
+      break;
+    }
     ImuSample s;
     const bool finite = ReadRow(columns, &rows, &s);
     AppendValid(s, finite, &samples, dropped);

@@ -1,6 +1,7 @@
 #include "tools/formats/prophesee/evt2_decoder.h"
 
 #include <cstring>
+#include <utility>
 
 namespace evit::formats {
 namespace {
@@ -90,18 +91,21 @@ std::size_t Evt21Decoder::Decode(const std::uint8_t* data, std::size_t size, boo
 }
 
 bool Evt21Decoder::UpperHalfFirst(const std::uint8_t* data, std::size_t size, bool otherwise) {
-  const auto successors = [&](bool first) {
-    std::int64_t count = 0, before = -2;
+  // TIME_HIGH words say it: their lower half is not used, and is 0; or else their stamps follow one another.
+  const auto evidence = [&](bool first) {
+    std::int64_t n = 0, empty = 0, successors = 0, before = -2;
     for (std::size_t k = 0; k < size / 8; ++k) {
       const std::uint32_t word = Upper(data, k, first);
       if (word >> 28 != kTimeHigh) continue;
       const std::int64_t high = word & kHighMask;
-      if (high == before || high == before + 1) ++count;
+      ++n;
+      if (Lower(data, k, first) == 0) ++empty;
+      if (high == before || high == before + 1) ++successors;
       before = high;
     }
-    return count;
+    return std::pair(2 * empty > n ? empty : 0, successors);
   };
-  const std::int64_t upper_first = successors(true), whole = successors(false);
+  const auto upper_first = evidence(true), whole = evidence(false);
   return upper_first == whole ? otherwise : upper_first > whole;
 }
 

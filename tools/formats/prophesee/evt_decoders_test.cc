@@ -151,6 +151,26 @@ TEST(Evt21Decoder, BothWordOrdersAreRecognisedAndDecoded) {
   }
 }
 
+// Few events: TIME_HIGH words are sparse, and in the wrong order some masks look like such words.
+TEST(Evt21Decoder, TheWordOrderOfSparseEventsIsRecognised) {
+  std::mt19937 rng(7);
+  std::vector<std::uint32_t> upper_first, little;
+  for (unsigned high = 1000; high < 9000; high += 5 + rng() % 7) {
+    for (const auto& [upper, lower] :
+         {std::pair(0x8000'0000U | high, std::uint32_t{0}),
+          std::pair(Evt2Word(rng() % 2, 3, 32 * (rng() % 10), rng() % 260), 1U << rng() % 32)}) {
+      upper_first.insert(upper_first.end(), {upper, lower});
+      little.insert(little.end(), {lower, upper});
+    }
+  }
+  for (const bool otherwise : {false, true}) {
+    for (const auto& [words, first] : {std::pair(upper_first, true), std::pair(little, false)}) {
+      const std::vector<std::uint8_t> bytes = Bytes(words);
+      EXPECT_EQ(Evt21Decoder::UpperHalfFirst(bytes.data(), bytes.size(), otherwise), first);
+    }
+  }
+}
+
 TEST(DatDecoder, EventsAreDecodedAndTimeWraps) {
   const std::vector<std::uint32_t> words = {0xFFFF'FFF0U, 1U << 28 | 719U << 14 | 1279U, 5,
                                             0U << 28 | 3U << 14 | 2U};

@@ -18,6 +18,11 @@ bool Plausible(int width, int height) {
   return width >= 16 && height >= 16 && width <= 8192 && height <= 8192;
 }
 
+std::string Trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
+  return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
+}
+
 }  // namespace
 
 RawHeader::RawHeader(ByteFile* file) {
@@ -42,11 +47,11 @@ RawHeader::RawHeader(ByteFile* file) {
     std::istringstream parts(value);
     std::string part;
     std::getline(parts, part, ';');
-    values["format"] = part;
+    values["format"] = Trimmed(part);
     while (std::getline(parts, part, ';')) {
       const std::size_t equal = part.find('=');
       if (equal != std::string::npos)
-        values["format." + LowerCase(part.substr(0, equal))] = part.substr(equal + 1);
+        values["format." + LowerCase(Trimmed(part.substr(0, equal)))] = Trimmed(part.substr(equal + 1));
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "tools/formats/alignment/clock_alignment.h"
@@ -17,6 +18,8 @@ namespace evit::formats {
 namespace {
 
 constexpr char kNone[] = "none";  // of a file's name: without that stream
+
+std::string After(const std::string& what) { return what.empty() ? "" : "; " + what; }
 
 // The streams of another file: a table, HDF5, or a recording that has them.
 ImportStreams StreamsOf(const std::string& given, bool imu, const StreamChoice& choice) {
@@ -38,8 +41,12 @@ ImportStreams StreamsOf(const std::string& given, bool imu, const StreamChoice& 
   } else {
     streams.truth = ReadPoseTable(path, &streams.dropped_truth);
   }
-  if (imu && streams.imu.empty()) throw std::runtime_error(path + ": holds no IMU samples that can be read");
-  if (!imu && streams.truth.empty()) throw std::runtime_error(path + ": holds no poses that can be read");
+  if (imu && streams.imu.empty())
+    throw std::runtime_error(path + ": holds no IMU samples that can be read" +
+                             After(DropText(streams.dropped_imu, "IMU samples")));
+  if (!imu && streams.truth.empty())
+    throw std::runtime_error(path + ": holds no poses that can be read" +
+                             After(DropText(streams.dropped_truth, "poses")));
   return streams;
 }
 
@@ -59,6 +66,17 @@ Utime FindOffset(Recording* recording, const RecordingInfo& info, const ImportSt
   return AlignClocks(flow.samples(), streams.imu, guess, kRange).offset;
 }
 
+// Elsewhere a choice would not be looked at.
+void RequireChoicesUsed(const RecordingImport& job) {
+  for (const auto& [choice, file, option] : {std::tuple(job.choice.imu, job.imu, "--imu-topic"),
+                                             std::tuple(job.choice.truth, job.truth, "--truth-topic")}) {
+    const bool other = !file.empty() && file != kNone;
+    if (choice.empty() || HasTopics(other ? file : job.paths.front())) continue;
+    throw std::runtime_error(std::string(option) + " " + choice + ": " + (other ? file : job.paths.front()) +
+                             " has no topics to choose from; leave the option out");
+  }
+}
+
 }  // namespace
 
 ImportSummary ImportRecording(const RecordingImport& given,
@@ -73,6 +91,7 @@ ImportSummary ImportRecording(const RecordingImport& given,
     job.imu = files.imu;
     job.truth = files.truth;
   }
+  RequireChoicesUsed(job);
   const std::unique_ptr<Recording> recording = OpenRecording(job.paths, job.choice);
   RecordingInfo info = recording->info();
   if (job.width > 0) {
@@ -102,6 +121,8 @@ ImportSummary ImportRecording(const RecordingImport& given,
     streams.truth = std::move(other.truth);
     streams.dropped_truth = other.dropped_truth;
   }
+  if (job.imu_offset != 0 && streams.imu.empty())
+    throw std::runtime_error("--imu-offset: there is no IMU; give --imu FILE");
   Utime imu_offset = std::llround(1e6 * job.imu_offset);
   if (job.align_clocks) imu_offset = FindOffset(recording.get(), info, streams, imu_offset);
   for (ImuSample& s : streams.imu) s.t += imu_offset;

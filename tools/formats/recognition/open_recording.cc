@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -26,15 +27,24 @@ constexpr char kKnown[] =
     "ROS 2 (SQLite, MCAP), HDF5 of DSEC, TUM-VIE, M3ED, MVSEC, EDS and Prophesee, numpy arrays "
     "(.npy, .npz), text (t x y p); evit import vector and rpg read folders of VECtor and RPG";
 
-std::unique_ptr<Recording> OpenFile(const std::string& path, const std::string& events) {
+// A choice that is not looked at would be a wrong stream taken in silence.
+void RequireNoChoice(const std::string& path, const std::string& events) {
+  if (events.empty()) return;
+  throw std::runtime_error(path + ": --events-topic " + events +
+                           ": its format holds one stream of events; leave the option out");
+}
+
+std::unique_ptr<Recording> OpenFile(const std::string& path, const StreamChoice& choice) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file");
   if (!std::filesystem::is_regular_file(path))
     throw std::runtime_error(path + ": is not a file of events; " + kKnown);
+  if (Aedat4Recording::Recognises(path))
+    return std::make_unique<Aedat4Recording>(path, choice.events, choice.imu);
+  if (NpyRecording::Recognises(path)) return std::make_unique<NpyRecording>(path, choice.events);
+  RequireNoChoice(path, choice.events);
   if (RawRecording::Recognises(path)) return std::make_unique<RawRecording>(path);
-  if (Aedat4Recording::Recognises(path)) return std::make_unique<Aedat4Recording>(path);
   if (AedatRecording::Recognises(path)) return std::make_unique<AedatRecording>(path);
   if (TextRecording::Recognises(path)) return std::make_unique<TextRecording>(path);
-  if (NpyRecording::Recognises(path)) return std::make_unique<NpyRecording>(path, events);
   const std::string other = OtherContents(path);
   if (!other.empty()) throw std::runtime_error(path + ": " + other);
   throw std::runtime_error(path + ": its contents are of no format that is recognised; " + kKnown);
@@ -76,7 +86,7 @@ std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths, 
   if (paths.size() != 1)
     throw std::runtime_error(paths[1] + ": a recording of the format of " + paths.front() +
                              " is one file; the IMU and truth of others are given with --imu and --truth");
-  return OpenFile(paths.front(), choice.events);
+  return OpenFile(paths.front(), choice);
 }
 
 bool IsRecording(const std::string& path) {
@@ -85,6 +95,13 @@ bool IsRecording(const std::string& path) {
          (RosbagStore::Recognises(path) || H5Recording::Recognises(path) || RawRecording::Recognises(path) ||
           Aedat4Recording::Recognises(path) || AedatRecording::Recognises(path) ||
           NpyRecording::Recognises(path));
+}
+
+bool HasTopics(const std::string& path) {
+  if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file or folder");
+  return OpenRos2Bags({path}) != nullptr ||
+         (std::filesystem::is_regular_file(path) &&
+          (RosbagStore::Recognises(path) || Aedat4Recording::Recognises(path)));
 }
 
 void MeasureSize(Recording* recording, int* width, int* height) {
@@ -119,6 +136,18 @@ void MeasureSize(Recording* recording, int* width, int* height) {
           std::to_string(h) + "; EVIT counts from 0: subtract 1 from both, or give --size " +
           std::to_string(*width) + "x" + std::to_string(*height) + " if the sensor is so large");
     }
+  }
+  const auto known = [](int w, int h) {
+    return std::find(std::begin(kKnownSensors), std::end(kKnownSensors), std::pair(w, h)) !=
+           std::end(kKnownSensors);
+  };
+  if (*height > *width && known(*height, *width)) {
+    throw std::runtime_error(
+        events->name() + ": columns and rows seem to be swapped: x reaches " + std::to_string(*width - 1) +
+        " and y " + std::to_string(*height - 1) + ", but sensors have " + std::to_string(*height) + "x" +
+        std::to_string(*width) +
+        " pixels; swap them (text: name the columns t y x p in the first line), or give --size " +
+        std::to_string(*width) + "x" + std::to_string(*height) + " if it is so");
   }
   if (const auto sensor = SmallestKnownSensor(*width, *height)) std::tie(*width, *height) = *sensor;
 }

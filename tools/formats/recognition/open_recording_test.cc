@@ -76,11 +76,33 @@ TEST(OpenRecording, WhyTextCannotBeReadIsSaid) {
   const std::pair<std::string, std::string> cases[] = {
       {std::string("\xff\xfe") + std::string("1\0 \0", 4), "UTF-16"},
       {"0,31;1;2;1\n0,32;1;2;1\n", "decimal commas"},
-      {"PK\x03\x04 no arrays", "unzip"}};
+      {"PK\x03\x04 no arrays", "unzip"},
+      {"\n\n", "nothing but blanks"},
+      {"t,x,y,p\n", "has no rows"},
+      {"1|2|3|1\n", "has no rows of numbers"},
+      {"rosbag2_bagfile_information:\n  version: 5\n", "give the folder"}};
   for (const auto& c : cases) {
     const std::string path = folder.Write("a.txt", c.first);
     EXPECT_THAT([&] { OpenRecording({path}); }, ThrowsMessage<std::runtime_error>(HasSubstr(c.second)));
   }
+}
+
+TEST(MeasureSize, ColumnsAndRowsThatAreSwappedAreRefused) {
+  const TemporaryFolder folder("recognition");
+  const auto recording = OpenRecording({folder.Write("a.txt", Rows(0, 260, 346, ""))});
+  int width = 0, height = 0;
+  EXPECT_THAT([&] { MeasureSize(recording.get(), &width, &height); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("columns and rows seem to be swapped")));
+}
+
+TEST(OpenRecording, AChoiceWhereThereIsNoneIsRefused) {
+  const TemporaryFolder folder("recognition");
+  const std::string path = folder.Write("a.txt", Rows(0, 346, 260, ""));
+  StreamChoice choice;
+  choice.events = "left";
+  EXPECT_THAT([&] { OpenRecording({path}, choice); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("--events-topic left")));
+  EXPECT_FALSE(HasTopics(path));
 }
 
 }  // namespace

@@ -8,7 +8,9 @@
 
 #include "common/files/table_reader.h"
 #include "common/files/table_sample.h"
+#include "common/text/words.h"
 #include "tools/formats/import/event_columns.h"
+#include "tools/formats/ros2/bag_metadata.h"
 
 namespace evit::formats {
 namespace {
@@ -107,15 +109,21 @@ bool IsBinary(std::string_view text) {
 }
 
 std::string OfText(const std::string& path, std::string_view text) {
-  std::string begin(text.substr(0, 20));
+  std::string begin(text.substr(0, 200));
   begin.erase(0, std::min(begin.size(), begin.find_first_not_of(" \t\r\n")));
   std::transform(begin.begin(), begin.end(), begin.begin(), [](unsigned char c) { return std::tolower(c); });
   if (begin.rfind("<!doctype", 0) == 0 || begin.rfind("<html", 0) == 0)
     return "is a web page, not what it was to be a download of; download it again";
   if (!begin.empty() && (begin[0] == '{' || begin[0] == '['))
-    return "is JSON; a calibration is given with --calibration";
+    return "is JSON; a calibration is given with --calibration, events as lines: t x y p";
+  if (IsBagMetadata(begin))
+    return "lists the parts of a ROS 2 bag; give the folder that it is in, or the parts";
   try {
     const TableSample sample = SampleTable(path, "t x y p", 20);
+    if (sample.rows.empty() && sample.head.empty())
+      return "holds nothing but blanks and comments; copy or download it again";
+    if (sample.rows.empty() && (NamesEvents(sample.head) || (!begin.empty() && IsDigit(begin[0]))))
+      return "has no rows of numbers with blanks, tabs, commas or semicolons between them";
     const std::size_t columns = sample.rows.empty() ? 0 : sample.rows.front().size();
     double value = 0;
     if ((columns == 5 || columns == 6) && sample.head.empty() && ParseNumber(sample.rows.front()[0], &value))

@@ -8,6 +8,7 @@
 #include "common/text/words.h"
 #include "tools/formats/recognition/file_kind.h"
 #include "tools/formats/recognition/other_contents.h"
+#include "tools/formats/ros2/bag_metadata.h"
 
 namespace evit::formats {
 namespace {
@@ -24,7 +25,9 @@ struct Sorted {
 
 std::vector<fs::path> FilesBelow(const std::string& folder) {
   std::vector<fs::path> files;
-  for (auto at = fs::recursive_directory_iterator(folder); at != fs::recursive_directory_iterator(); ++at) {
+  constexpr auto kSkip = fs::directory_options::skip_permission_denied;
+  for (auto at = fs::recursive_directory_iterator(folder, kSkip); at != fs::recursive_directory_iterator();
+       ++at) {
     if (at.depth() >= kDepth) at.disable_recursion_pending();
     if (at->is_regular_file()) files.push_back(at->path());
     if (files.size() > kMaxFiles)
@@ -97,10 +100,10 @@ RecordingFiles FindRecording(const std::string& folder, const std::string& given
   Sorted sorted, named, others;
   std::string packed;
   for (const fs::path& file : FilesBelow(folder)) {
+    if (file.filename() == kBagMetadata) RequireListedParts(file.parent_path().string());
     const std::string path = file.string();
     if (Contains(path.substr(folder.size()), "right") || IsPicture(file)) continue;
-    if (file.extension() == ".zstd")
-      throw std::runtime_error(path + ": is compressed as a file; run zstd -d on it first");
+    RefusePackedPart(file);
     if (IsText(file)) {
       SortText(file, folder, &named, &others);
       continue;

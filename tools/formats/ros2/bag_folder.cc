@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "tools/formats/ros2/bag_metadata.h"
 #include "tools/formats/ros2/mcap_bag.h"
 #include "tools/formats/ros2/sqlite_bag.h"
 
@@ -91,8 +92,7 @@ std::unique_ptr<MessageStore> OpenRos2Bag(const std::string& path) {
     const std::string extension = entry.path().extension().string();
     if (entry.is_regular_file() && (extension == ".db3" || extension == ".mcap"))
       files.push_back(entry.path().string());
-    if (extension == ".zstd")
-      throw std::runtime_error(entry.path().string() + ": is compressed as a file; run zstd -d on it first");
+    RefusePackedPart(entry.path());
   }
   std::sort(files.begin(), files.end());
   std::vector<std::unique_ptr<MessageStore>> parts;
@@ -100,6 +100,7 @@ std::unique_ptr<MessageStore> OpenRos2Bag(const std::string& path) {
     if (auto part = OpenFile(file)) parts.push_back(std::move(part));
   }
   if (parts.empty()) return nullptr;
+  RequireListedParts(path);
   return parts.size() == 1 ? std::move(parts.front()) : std::make_unique<BagFolder>(std::move(parts));
 }
 

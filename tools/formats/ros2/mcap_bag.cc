@@ -6,6 +6,7 @@
 
 #include "tools/formats/import/byte_file.h"
 #include "tools/formats/ros2/mcap_records.h"
+#include "tools/formats/ros2/packed_message.h"
 
 namespace evit::formats {
 namespace {
@@ -91,6 +92,7 @@ class McapPass : public MessagePass {
           message->topic = channel->second;
           message->size = fields.left();
           message->data = fields.Take(message->size);
+          packed_.Unpack(message);
           return true;
         }
       } catch (const std::runtime_error& error) {
@@ -106,6 +108,7 @@ class McapPass : public MessagePass {
  private:
   McapRecords records_;
   std::set<std::string> topics_;
+  PackedMessages packed_;
   std::map<std::uint64_t, std::string> channels_;  // those asked for
   Utime recorded_ = 0;
 };
@@ -132,9 +135,11 @@ McapBag::McapBag(const std::string& path) : path_(path) {
   }
   bool ros1 = false, ros2 = false;
   for (const auto& [id, channel] : contents.channels) {
-    if (channel.encoding != "cdr" && channel.encoding != "ros1") continue;
-    (channel.encoding == "cdr" ? ros2 : ros1) = true;
-    topics_.push_back({channel.topic, Ros1TypeName(contents.schemas[channel.schema])});
+    const std::string type = Ros1TypeName(contents.schemas[channel.schema]);
+    const bool cdr = channel.encoding == "cdr", read = cdr || channel.encoding == "ros1";
+    if (read) (cdr ? ros2 : ros1) = true;
+    topics_.push_back(
+        {channel.topic, read ? type : type + " as " + channel.encoding + ", which is not read"});
   }
   if (ros1 && ros2)
     throw std::runtime_error(path + ": mixes messages of ROS 1 and ROS 2, which cannot be read");

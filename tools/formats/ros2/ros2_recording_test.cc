@@ -332,5 +332,40 @@ TEST(Ros2Recording, RealBagsAreReadWhole) {
   }
 }
 
+// ros2 bag record --compression-mode message
+TEST(Ros2Recording, MessagesPackedOneByOneAreRead) {
+  const TemporaryFolder folder("ros2");
+  std::vector<Message> messages = Recording();
+  for (Message& m : messages) m.bytes = Compress("zstd", m.bytes);
+  WriteSqlite(folder.File("a.db3"), messages);
+  ExpectWhole(folder.File("a.db3"));
+  ExpectWhole(folder.Write("a.mcap", Mcap(messages, "", true)));
+  messages[0].bytes.resize(20);
+  WriteSqlite(folder.File("b.db3"), messages);
+  EXPECT_THAT(
+      [&] { RosRecording(OpenRos2Bag(folder.File("b.db3")), {}); },
+      ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("b.db3: /cam/events"), HasSubstr("Zstandard"))));
+}
+
+TEST(Ros2Recording, APartThatIsListedAndMissingIsNamed) {
+  const TemporaryFolder folder("ros2");
+  const std::vector<Message> all = Recording();
+  std::filesystem::create_directories(folder.File("bag"));
+  WriteSqlite(folder.File("bag/bag_0.db3"), {all.begin(), all.begin() + 3});
+  WriteSqlite(folder.File("bag/bag_1.db3"), {all.begin() + 3, all.end()});
+  // The second was packed as a file, and unpacked beside that.
+  folder.Write("bag/metadata.yaml",
+               "rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths:\n    - bag_0.db3\n"
+               "    - \"bag_1.db3.zstd\"\n  duration:\n    nanoseconds: 1\n");
+  folder.Write("bag/bag_1.db3.zstd", "packed");
+  ExpectWhole(folder.File("bag"));
+  std::filesystem::remove(folder.File("bag/bag_1.db3"));
+  EXPECT_THAT([&] { OpenRos2Bag(folder.File("bag")); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("bag_1.db3.zstd: is compressed as a file")));
+  std::filesystem::remove(folder.File("bag/bag_1.db3.zstd"));
+  EXPECT_THAT([&] { OpenRos2Bag(folder.File("bag")); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("bag_1.db3.zstd: is missing")));
+}
+
 }  // namespace
 }  // namespace evit::formats

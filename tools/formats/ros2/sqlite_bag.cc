@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "tools/formats/import/byte_file.h"
+#include "tools/formats/ros2/packed_message.h"
 
 namespace evit::formats {
 namespace {
@@ -80,7 +81,7 @@ class Database {
 
 class SqlitePass : public MessagePass {
  public:
-  SqlitePass(const std::string& path, const std::set<std::string>& topics) : db_(path) {
+  SqlitePass(const std::string& path, const std::set<std::string>& topics) : path_(path), db_(path) {
     std::string in;
     for (std::size_t k = 0; k < topics.size(); ++k) in += k == 0 ? "?" : ",?";
     const std::string from =
@@ -94,6 +95,11 @@ class SqlitePass : public MessagePass {
     ++read_;
     message->topic = db_.Text(0);
     message->data = db_.Blob(1, &message->size);
+    try {
+      packed_.Unpack(message);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(path_ + ": " + message->topic + ": " + error.what());
+    }
     return true;
   }
   double share() const override {
@@ -106,7 +112,9 @@ class SqlitePass : public MessagePass {
     int index = 0;
     for (const std::string& topic : topics) db_.Bind(++index, topic);
   }
+  std::string path_;
   Database db_;
+  PackedMessages packed_;
   std::int64_t read_ = 0, total_ = 0;
 };
 
@@ -122,7 +130,9 @@ SqliteBag::SqliteBag(const std::string& path) : path_(path) {
   Database db(path);
   db.Prepare("SELECT name, type, serialization_format FROM topics ORDER BY name");
   while (db.Step()) {
-    if (db.Text(2) == "cdr") topics_.push_back({db.Text(0), Ros1TypeName(db.Text(1))});
+    const std::string type = Ros1TypeName(db.Text(1)), encoding = db.Text(2);
+    topics_.push_back(
+        {db.Text(0), encoding == "cdr" ? type : type + " as " + encoding + ", which is not read"});
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -10,15 +9,6 @@ namespace evit::formats {
 namespace {
 
 constexpr std::size_t kPiece = 100'000;  // events
-
-// Whether the file ends within a line, as one does that is cut off.
-bool EndsWithinLine(const std::string& path) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file || file.tellg() == 0) return false;
-  file.seekg(-1, std::ios::end);
-  const int last = file.get();
-  return last != '\n' && last != '\r';
-}
 
 // Words for polarities, as programs write them beside numbers.
 bool IsWord(std::string_view word, std::string_view lower) {
@@ -29,11 +19,7 @@ bool IsWord(std::string_view word, std::string_view lower) {
 }  // namespace
 
 RpgEvents::RpgEvents(const std::string& path, int width, int height)
-    : path_(path),
-      lines_(path, "t x y p"),
-      filter_(width, height),
-      columns_(FindEventColumns(path)),
-      cut_off_(EndsWithinLine(path)) {
+    : path_(path), lines_(path, "t x y p"), filter_(width, height), columns_(FindEventColumns(path)) {
   if (columns_.size) lines_.Next();
   if (columns_.size && *columns_.size != std::pair(width, height)) {
     lines_.Fail("the first line says that the sensor has " + std::to_string(columns_.size->first) + "x" +
@@ -60,13 +46,17 @@ std::uint8_t RpgEvents::ReadPolarity() {
   }
 }
 
+DropCounts RpgEvents::dropped() const {
+  DropCounts dropped = filter_.dropped();
+  dropped.cut_off = cut_off_;
+  return dropped;
+}
+
 bool RpgEvents::Read(EventArray* events) {
   events->clear();
   while (events->size() < kPiece && lines_.Next()) {
-    if (cut_off_ && lines_.share() >= 1 && lines_.WordsLeft() < columns_.n) {
-      filter_.CountInvalid();
-      continue;
-    }
+    cut_off_ = lines_.CutOff(columns_.n);
+    if (cut_off_) break;
     Utime t = 0, fraction = 0;
     bool finite = true;
     std::int64_t x = 0, y = 0;

@@ -19,7 +19,7 @@ class RpgEvents : public EventSource {
   bool Read(EventArray* events) override;
   double share() const override { return lines_.share(); }
   std::string name() const override { return path_; }
-  DropCounts dropped() const override { return filter_.dropped(); }
+  DropCounts dropped() const override;
 
  private:
   std::uint8_t ReadPolarity();

@@ -147,6 +147,12 @@ TEST_F(RpgImportTest, EventsInEveryFormThatHasOneMeaning) {
         });
       },
       [&] {
+        write("ts.secs,ts.nsecs,x,y,polarity\n", "\n", [&](Utime t, int x, int y, int p) {
+          return text("%lld,%lld,%d,%d,%d", static_cast<long long>(t / 1'000'000),
+                      static_cast<long long>(t % 1'000'000 * 1000), x, y, p);
+        });
+      },
+      [&] {
         write("", "\n", [&](Utime t, int x, int y, int p) {
           return text("%d,%d,%d,%lld", x, y, p, static_cast<long long>(t));
         });
@@ -266,7 +272,7 @@ TEST_F(RpgImportTest, AFileThatIsCutOffIsReadUpToItsLastRow) {
     Append("events.txt", tail);
     const ImportSummary summary = Import();
     EXPECT_EQ(summary.n_events, static_cast<std::int64_t>(made_.events.size()));
-    EXPECT_EQ(summary.dropped_events.invalid, 1);
+    EXPECT_TRUE(summary.dropped_events.cut_off);
   }
 }
 
@@ -320,6 +326,14 @@ TEST_F(RpgImportTest, StreamsOfTwoClocksAreRejected) {
   std::ofstream(In("imu.txt")) << "1468941032.0 0 0 0 0 0 0\n1468941032.1 0 0 0 0 0 0\n";
   EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(
                                      AllOf(HasSubstr("imu.txt"), HasSubstr("after the last event"))));
+}
+
+TEST_F(RpgImportTest, StampsThatWereRoundedAwayAreRefused) {
+  {
+    std::ofstream events(In("events.txt"));
+    for (int k = 0; k < 2000; ++k) events << (k < 1000 ? "0.100000" : "0.200000") << " 1 1 " << k % 2 << '\n';
+  }
+  EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(HasSubstr("only 2 different stamps")));
 }
 
 }  // namespace

@@ -25,10 +25,16 @@ Trajectory ReadPoseTable(const std::string& path, DropCounts* dropped) {
   if (sample.rows.empty() || sample.rows.front().size() < 8)
     throw std::runtime_error(path + ": is not a trajectory; expected " + kPoseLayout);
   const PoseColumns columns = PoseColumnsOf(sample);
-  const TimeUnit unit = UnitOfStamps(sample, columns.time, kSlowestPose);
+  if (HoldsMatrices(sample))
+    throw std::runtime_error(path + ": holds matrices; expected rows of " + kPoseLayout);
+  const TimeUnit unit = UnitOfPoses(sample, columns, kSlowestPose);
   TableReader rows(path, kPoseLayout);
   Trajectory poses;
   while (rows.Next()) {
+    if (rows.CutOff(sample.rows.front().size())) {
+      dropped->cut_off = true;
+      break;
+    }
     const PoseRow row = ReadPoseRow(columns, unit, &rows);
     AppendPose({row.t,
                 {Eigen::Map<const Eigen::Quaterniond>(row.orientation.data()),

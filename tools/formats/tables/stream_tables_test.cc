@@ -89,5 +89,43 @@ TEST(ReadPoseTable, TumAndEurocAndMicroseconds) {
   }
 }
 
+TEST(StreamTables, ALastRowThatIsCutOffIsLeftOutAndTold) {
+  const TemporaryFolder folder("tables");
+  DropCounts imu, poses;
+  EXPECT_EQ(
+      ReadImuTable(folder.Write("imu", "1.0 0 0 9.81 0.1 0.2 0.3\n1.1 0 0 9.81 0.1 0.2 0.3\n1.2 0 0"), &imu)
+          .size(),
+      2U);
+  EXPECT_TRUE(imu.cut_off);
+  EXPECT_EQ(
+      ReadPoseTable(folder.Write("gt", "1.0 1 2 3 0 0 0 1\n1.1 1 2 3 0 0 0 1\n1.2 1 2 3"), &poses).size(),
+      2U);
+  EXPECT_TRUE(poses.cut_off);
+  DropCounts whole;
+  EXPECT_EQ(ReadPoseTable(folder.Write("gt", "1.0 1 2 3 0 0 0 1\n1.1 1 2 3 0 0 0 1"), &whole).size(), 2U);
+  EXPECT_FALSE(whole.cut_off);
+  EXPECT_THROW(ReadPoseTable(folder.Write("gt", "1.0 1 2 3 0 0 0 1\n1.1 1 2 3\n"), &whole),
+               std::runtime_error);
+}
+
+TEST(ReadImuTable, NamesThatDoNotSayItAllAreRefusedAmongOtherColumns) {
+  const TemporaryFolder folder("tables");
+  const std::string path = folder.Write("imu",
+                                        "PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z,Gyr_X,Gyr_Y,Gyr_Z\n1,"
+                                        "10000,0,0,9.81,0.1,0.2,0.3\n2,10050,0,0,9.81,0.1,0.2,0.3\n");
+  DropCounts dropped;
+  EXPECT_THAT([&] { ReadImuTable(path, &dropped); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("not known: PacketCounter, SampleTimeFine")));
+}
+
+TEST(ReadPoseTable, MatricesAreRefused) {
+  const TemporaryFolder folder("tables");
+  const std::string path =
+      folder.Write("gt", "7 0 -1 0 0.01 1 0 0 0.2 0 0 1 0.3\n8 0 -1 0 0.01 1 0 0 0.2 0 0 1 0.3\n");
+  DropCounts dropped;
+  EXPECT_THAT([&] { ReadPoseTable(path, &dropped); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("holds matrices")));
+}
+
 }  // namespace
 }  // namespace evit::formats

@@ -22,7 +22,7 @@ double NumberAt(const std::vector<std::string>& row, std::size_t column) {
 }
 
 bool HoldsPoses(const TableSample& sample) {
-  if (sample.rows.front().size() < 8) return false;
+  if (sample.rows.front().size() < 8 || HoldsMatrices(sample)) return false;
   const PoseColumns columns = PoseColumnsOf(sample);
   return std::all_of(sample.rows.begin(), sample.rows.end(), [&](const std::vector<std::string>& row) {
     double sum = 0;

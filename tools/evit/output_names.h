@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// Looks at the names of outputs before the work begins. Each throws std::runtime_error naming the option.
+namespace evit::commands {
+
+/// A file that can be written: its folder exists, and what may be there already is a file.
+void RequireOutput(const std::string& option, const std::string& path);
+
+/// The same of a log: what is there already is a log as well, so that a recording is not lost by a slip.
+void RequireLogOutput(const std::string& option, const std::string& path);
+
+/// `path` is none of the files that are read. Empty names are passed over.
+void RequireNoInput(const std::string& option, const std::string& path,
+                    const std::vector<std::string>& inputs);
+
+}  // namespace evit::commands
