@@ -71,9 +71,15 @@ std::vector<SE3> FollowedPlaces::MoveTo(Utime t, const ImuBetween& imu) {
   return predicted;
 }
 
-void FollowedPlaces::AddAnswer(Utime t, std::size_t predicted, const std::vector<PlaceCandidate>& answer) {
+void FollowedPlaces::AddAnswer(Utime t, std::size_t predicted, const std::vector<PlaceCandidate>& answer,
+                               bool everywhere) {
   const std::size_t n = std::min({places_.size(), predicted, answer.size()});
-  for (std::size_t k = 0; k < n; ++k) Fit(t, answer[k], &places_[k]);
+  std::size_t best = 0;  // with which the finder has compared the rest of the map
+  for (std::size_t k = 0; k < n; ++k) {
+    Fit(t, answer[k], &places_[k]);
+    if (answer[k].significance > answer[best].significance) best = k;
+  }
+  if (everywhere && n > 0) places_[best].compared = true;
   for (std::size_t k = predicted; k < answer.size(); ++k) Adopt(t, answer[k]);
   DropWeak();
 }

@@ -23,6 +23,7 @@ struct FollowedPlace {
   std::vector<Step> steps;
   int weak = 0;  // last steps in a row that did not fit
   double likeness = 0;
+  bool compared = false;  // the whole map was searched for what looks like it
   int n_points = 0;
 
   /// Significance over the newest steps.
@@ -52,8 +53,8 @@ class FollowedPlaces {
   /// Moves all to time t (us): T_map_body of each, as predicted.
   std::vector<SE3> MoveTo(Utime t, const ImuBetween& imu);
   /// The answer to a question about the keyframe of time t: its first `predicted` are those of MoveTo,
-  /// fitted; what comes then are other places.
-  void AddAnswer(Utime t, std::size_t predicted, const std::vector<PlaceCandidate>& answer);
+  /// fitted; what comes then are other places, from all over the map where `everywhere`.
+  void AddAnswer(Utime t, std::size_t predicted, const std::vector<PlaceCandidate>& answer, bool everywhere);
 
   /// The most significant over all of its steps. Not for an empty set.
   const FollowedPlace& Best() const;

@@ -34,16 +34,22 @@ class PlaceFinder {
 
   /// First the hypotheses, refined, in their order; then what else explains the view: everywhere, or around
   /// the best of the hypotheses. The others are the most significant first, and no two are one place.
+  ///
+  /// Everywhere, with hypotheses, also where the map looks as from the best of them: rooms alike, of which
+  /// the events, with what they miss and add, may have shown only one.
   std::vector<PlaceCandidate> Answer(const PlaceQuery& query) const;
 
  private:
   std::vector<PlaceCandidate> Refined(const PlaceQuery& query, const SurfaceField& field) const;
-  std::vector<PlaceCandidate> Everywhere(const PlaceQuery& query, const SurfaceField& field) const;
+  std::vector<PlaceCandidate> Everywhere(const PlaceQuery& query, const SurfaceField& field,
+                                         const std::vector<PlaceCandidate>& refined) const;
+  std::vector<PlaceMatch> Matches(const PlaceQuery& query, const cv::Mat& surface, std::size_t count) const;
   std::vector<PlaceMatch> SpreadEvenly(std::size_t count) const;
   PlaceCandidate Aligned(const SurfaceField& field, const SE3& T_map_body, const StartRange& range) const;
   PlaceCandidate Searched(const SurfaceField& field, const SE3& T_map_body, const StartRange& range,
                           std::int64_t number) const;
-  AlignmentPoints PointsAt(const SE3& T_map_body) const;
+  AlignmentPoints PointsAt(const SE3& T_map_body, std::size_t most) const;
+  AlignmentPoints PointsAt(const SE3& T_map_body) const { return PointsAt(T_map_body, options_.points); }
 
   const MapIndex& map_;
   const PlaceIndex& index_;

@@ -66,6 +66,22 @@ TEST(PlaceFinder, ARoomThatLooksTheSameBothWaysHasTwoAnswers) {
   ExpectNear(places[1].T_map_body, first_is_here ? turned : kHere);
 }
 
+TEST(PlaceFinder, WithAPlaceThatFitsItNamesAllThatLookLikeIt) {
+  const synthetic::IndexedRoom& room = synthetic::FourSidedRoom();
+  const PointMap& map = room.index.map();
+  PlaceQuery query = QueryFrom(map, kHere);
+  query.hypotheses = {kHere};
+  const std::vector<PlaceCandidate> places = room.finder.Answer(query);
+  ExpectNear(places.at(0).T_map_body, kHere);
+  for (const double quarter : {1, 2, 3}) {
+    const SE3 turned = SE3(ExpSO3(Eigen::Vector3d(0, 0, quarter * EIGEN_PI / 2)), Eigen::Vector3d::Zero()) * kHere;
+    EXPECT_TRUE(std::any_of(places.begin() + 1, places.end(), [&](const PlaceCandidate& place) {
+      return (place.T_map_body.p - turned.p).norm() < 0.05 &&
+             place.significance > 0.8 * places[0].significance;
+    }));
+  }
+}
+
 TEST(PlaceFinder, WhatIsKnownRulesTheOthersOut) {
   const synthetic::IndexedRoom& room = synthetic::TwoSidedRoom();
   const PointMap& map = room.index.map();

@@ -90,12 +90,20 @@ void SelfLocator::AskNext() {
   const View view = std::move(views_.front());
   views_.pop_front();
   std::vector<SE3> predicted = places_.MoveTo(view.t, Imu());
-  if (searches_.Due(view.t, Convinced())) {
+  if (searches_.Due(view.t, Convinced()) || (ToCompare() && searches_.Due(view.t, false))) {
     AskEverywhere(view, predicted);
     if (question_) return;
   }
   question_ =
       PlaceQuery{++asked_, view.t, view.surface, Eigen::Vector3d::UnitZ(), false, std::move(predicted), {}};
+}
+
+// Whether the best place convinces, and the rest of the map has not been compared with it yet: before it
+// counts as found, whatever looks like it has to be followed too.
+bool SelfLocator::ToCompare() const {
+  if (places_.empty()) return false;
+  const FollowedPlace& best = places_.Best();
+  return !best.compared && best.steps.size() >= kConvincing && best.Mean() >= options_.patient_significance;
 }
 
 bool SelfLocator::Convinced() const {
@@ -117,7 +125,9 @@ void SelfLocator::AskEverywhere(const View& view, std::vector<SE3> hypotheses) {
     return;
   }
   const Eigen::Vector3d tried = searches_.Begin(view.t, upright, imu_);
-  const Eigen::Vector3d up = options_.other_verticals ? tried : upright.up;
+  Eigen::Vector3d up = options_.other_verticals ? tried : upright.up;
+  if (!hypotheses.empty() && ToCompare())  // its pose knows the vertical best
+    up = places_.Best().state.T_map_body.q.conjugate() * Eigen::Vector3d::UnitZ();
   question_ = PlaceQuery{++asked_, view.t, view.surface, up, true, std::move(hypotheses), options_.prior};
   if (places_.empty()) progress_ = "searching " + Searched();
 }
@@ -128,7 +138,7 @@ std::string SelfLocator::Searched() const {
 
 void SelfLocator::AddAnswer(const std::vector<PlaceCandidate>& answer) {
   if (!question_) return;
-  places_.AddAnswer(question_->t, question_->hypotheses.size(), answer);
+  places_.AddAnswer(question_->t, question_->hypotheses.size(), answer, question_->everywhere);
   question_.reset();
   Decide();
   AskNext();
@@ -150,6 +160,10 @@ void SelfLocator::Decide() {
   const bool patient = since >= 2 * options_.follow_s;
   if (best.Mean() < (patient ? options_.patient_significance : options_.least_significance)) return;
   const double lead = patient ? options_.patient_lead : options_.least_lead;
+  if (!best.compared) {
+    progress_ = "a place fits; comparing it with the rest of the map";
+    return;
+  }
   if (const std::size_t rivals = places_.Rivals(best, lead); rivals > 0) {
     progress_ = FormatText("ambiguous: %zu places look alike", rivals + 1);
     return;

@@ -77,6 +77,7 @@ class SelfLocator {
 
   void AskNext();
   void AskEverywhere(const View& view, std::vector<SE3> hypotheses);
+  bool ToCompare() const;
   std::string Searched() const;  // "the map", or the part of it that the prior leaves
   bool Convinced() const;
   void Decide();

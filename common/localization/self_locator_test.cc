@@ -84,6 +84,34 @@ TEST_F(SelfLocatorTest, TwoPlacesThatLookAlikeAreAmbiguous) {
   EXPECT_GT(Locate(map, room, 1.5, known), 0);
 }
 
+TEST_F(SelfLocatorTest, FourPlacesThatLookAlikeAreAmbiguous) {
+  const synthetic::IndexedRoom& room = synthetic::FourSidedRoom();
+  motion_.about = {0.3, 0.2, 0};
+  EXPECT_LT(Locate(room.index.map(), room, 1.5), 0);
+  EXPECT_EQ(locator_->Progress(), "ambiguous: 4 places look alike");
+}
+
+// A search shows only the first of two places that look alike; nothing is claimed before the map has been
+// asked for the other.
+TEST_F(SelfLocatorTest, BeforeItClaimsAPlaceItLooksForOthersLikeIt) {
+  const synthetic::IndexedRoom& room = synthetic::TwoSidedRoom();
+  motion_.about = {0.3, 0.2, 0};
+  locator_.emplace(synthetic::IndexedRoom::TestRig(), TrackerOptions());
+  bool compared = false;
+  for (now_ = 1'000'000; now_ <= 2'500'000; now_ += kStep) {
+    locator_->AddKeyframe(Keyframe(room.index.map(), now_, now_ == 1'000'000));
+    while (const PlaceQuery* question = locator_->question()) {
+      std::vector<PlaceCandidate> answer = room.finder.Answer(*question);
+      if (question->everywhere && question->hypotheses.empty()) answer.resize(1);
+      compared = compared || (question->everywhere && !question->hypotheses.empty());
+      locator_->AddAnswer(answer);
+    }
+  }
+  EXPECT_TRUE(compared);
+  EXPECT_FALSE(locator_->Found());
+  EXPECT_EQ(locator_->Progress(), "ambiguous: 2 places look alike");
+}
+
 TEST_F(SelfLocatorTest, AtRestItDoesNotDecide) {
   const synthetic::IndexedRoom& room = synthetic::TheRoom();
   const PointMap& map = room.index.map();

@@ -10,15 +10,14 @@
 namespace evit::synthetic {
 
 /// Segments on the walls of a room of 4 x 4 x 2.4 m around the origin. `copies` 2: its second half is the
-/// first, turned by 180 degrees about the vertical.
+/// first, turned by 180 degrees about the vertical; 4: all walls are the first, turned.
 inline PointMap WalledRoom(unsigned seed, int copies = 1) {
   std::mt19937 rng(seed);
   std::uniform_real_distribution<float> u(-1, 1);
   PointMap map;
   const int lines = 160 / copies;
   for (int k = 0; k < lines; ++k) {
-    // One half of the room: two walls; else all four.
-    const int wall = static_cast<int>(rng() % (copies == 2 ? 2 : 4));
+    const int wall = static_cast<int>(rng() % (4 / copies));
     const bool level = rng() % 2 == 0;
     const float s = 1.9F * u(rng), z = 1.1F * u(rng), length = 0.2F + 0.3F * std::abs(u(rng));
     const float depth = 2.0F - 0.4F * std::abs(u(rng));  // on shelves and boxes, too
@@ -27,7 +26,9 @@ inline PointMap WalledRoom(unsigned seed, int copies = 1) {
       const Eigen::Vector3f on_wall[] = {{depth, t, h}, {t, depth, h}, {-depth, t, h}, {t, -depth, h}};
       const Eigen::Vector3f p = on_wall[wall];
       map.points.push_back(p);
-      if (copies == 2) map.points.emplace_back(-p.x(), -p.y(), p.z());
+      if (copies == 4) map.points.emplace_back(-p.y(), p.x(), p.z());
+      if (copies > 1) map.points.emplace_back(-p.x(), -p.y(), p.z());
+      if (copies == 4) map.points.emplace_back(p.y(), -p.x(), p.z());
     }
   }
   return map;
@@ -67,6 +68,11 @@ inline const IndexedRoom& OtherRoom() {
 }
 inline const IndexedRoom& TwoSidedRoom() {
   static const IndexedRoom room(WalledRoom(3, 2));
+  return room;
+}
+
+inline const IndexedRoom& FourSidedRoom() {
+  static const IndexedRoom room(WalledRoom(3, 4));
   return room;
 }
 
