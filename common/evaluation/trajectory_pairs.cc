@@ -81,8 +81,9 @@ std::string TooFewPairsText(const Trajectory& truth, const Trajectory& estimate)
   const bool apart = truth.empty() || estimate.empty() || estimate.back().t < truth.front().t ||
                      estimate.front().t > truth.back().t;
   if (apart) return "truth and estimate do not overlap in time; are they from the same sequence and clock?";
-  return "only " + std::to_string(n) + " pairs of truth and estimate, too few for a score; " +
-         UnscoredText(truth, estimate);
+  const std::string why = UnscoredText(truth, estimate);
+  return "only " + std::to_string(n) + " pairs of truth and estimate, too few for a score" +
+         (why.empty() ? "" : "; " + why);
 }
 
 }  // namespace evit

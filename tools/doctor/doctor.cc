@@ -93,7 +93,8 @@ void CheckPlace(const Patient& patient, const Rig& rig, const Trajectory& truth,
 
 Findings Examine(const Patient& patient, const std::function<void(double)>& progress) {
   const Rig rig = LoadRig(patient.rig);
-  const Trajectory truth = patient.truth.empty() ? Trajectory{} : ReadTum(patient.truth);
+  TumSkipped skipped;
+  const Trajectory truth = patient.truth.empty() ? Trajectory{} : ReadTum(patient.truth, &skipped);
   RecordedData data(patient.log);
   diagnosis::EventCensus events(rig.camera.width, rig.camera.height);
   diagnosis::EventExcerpts excerpts = Excerpts(data, rig, truth, patient.seconds);
@@ -109,6 +110,10 @@ Findings Examine(const Patient& patient, const std::function<void(double)>& prog
   Append(&found, diagnosis::CheckClocks(events, imu, rig.camera_time_offset));
   Append(&found, diagnosis::CheckRig(rig));
   Append(&found, diagnosis::CheckTruth(truth, imu));
+  if (skipped.rows > 0)
+    found.push_back({"truth-order", Severity::kWarning, skipped.Text(patient.truth),
+                     "Some rows of the truth cannot be used.",
+                     "sort the file by time (sort -g); remove repeated rows"});
   if (!patient.map.empty()) CheckPlace(patient, rig, truth, imu, excerpts, &found);
   diagnosis::SortBySeverity(&found);
   return found;

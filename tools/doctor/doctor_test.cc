@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "common/diagnosis/event_checks.h"
 #include "common/diagnosis/imu_checks.h"
@@ -80,6 +81,21 @@ TEST(DoctorTest, SaysWhatItCouldNotCheck) {
   EXPECT_THAT(NotChecked(patient), AllOf(HasSubstr("extrinsics"), HasSubstr("--initial-pose")));
   patient.truth = "truth.tum";
   EXPECT_EQ(NotChecked(patient), "");
+}
+
+// A repeated stamp is passed over and told; all else is examined.
+TEST(DoctorTest, RowsOfTheTruthThatCannotBeUsedAreTold) {
+  const TemporaryFolder folder("doctor_truth");
+  std::ifstream truth(test::SourcePath("logs/sample_truth.tum"));
+  std::string text, line;
+  for (int n = 0; std::getline(truth, line); ++n) text += line + "\n" + (n == 20 ? line + "\n" : "");
+  Patient patient;
+  patient.log = test::SourcePath("logs/sample.lcmlog");
+  patient.rig = test::SourcePath("logs/rig.textproto");
+  patient.truth = folder.Write("truth.tum", text);
+  for (const Finding& f : Examine(patient, [](double) {}))
+    EXPECT_EQ(f.severity, f.check == "truth-order" ? Severity::kWarning : Severity::kGood)
+        << f.check << f.figure;
 }
 
 // One pixel in 25 is hot, and of the others each third has fired once: none of the rest is dead for that.

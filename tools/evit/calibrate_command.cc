@@ -78,7 +78,7 @@ void Calibrate(CalibrateOptions* o) {
   const run::RunJob& job = o->job;
   const Rig before = LoadRig(job.rig);
   const std::string poses = o->poses.empty() ? Track(o) : o->poses;
-  const Trajectory camera = calibration::CameraOf(ReadTum(poses), before);
+  const Trajectory camera = calibration::CameraOf(ReadTrajectory(poses), before);
   std::printf("\ncalibrating from %zu poses\n", camera.size());
   std::fflush(stdout);
   const CameraImuCalibration found =

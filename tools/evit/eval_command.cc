@@ -9,6 +9,7 @@
 #include "common/evaluation/trajectory_pairs.h"
 #include "common/geometry/degrees.h"
 #include "tools/evit/commands.h"
+#include "tools/evit/options.h"
 #include "tools/pictures/consistency_plot.h"
 
 namespace evit::commands {
@@ -62,15 +63,8 @@ void PrintCell(const TrajectoryError& e) {
   }
 }
 
-Trajectory ReadTumAndTell(const std::string& path) {
-  TumSkipped skipped;
-  Trajectory trajectory = ReadTum(path, &skipped);
-  if (skipped.rows > 0) std::fprintf(stderr, "evit eval: %s\n", skipped.Text(path).c_str());
-  return trajectory;
-}
-
 void Evaluate(const EvalOptions& o) {
-  const Trajectory truth = ReadTumAndTell(o.truth), estimate = ReadTumAndTell(o.estimate);
+  const Trajectory truth = ReadTrajectory(o.truth), estimate = ReadTrajectory(o.estimate);
   const TrajectoryError whole = AbsoluteError(truth, estimate, Alignment::kNone);
   if (!whole.scored())
     throw std::runtime_error(o.estimate + " against " + o.truth + ": " + TooFewPairsText(truth, estimate));

@@ -31,6 +31,8 @@ void AddExportLog(CLI::App* app, const char* name, const char* text, formats::Ex
                    format == formats::ExportFormat::kRpg ? "Folder to write to"
                                                          : "File of the events; IMU and truth beside it")
       ->required();
+  command->add_flag("--allow-truncated", o->job.allow_truncated,
+                    "Of a log that was cut off: export the complete messages");
   if (format == formats::ExportFormat::kEvt3)
     command->add_option("--size", o->size,
                         "WxH of the sensor, for the header (default: what holds all events)");
@@ -77,7 +79,7 @@ void AddExportResults(CLI::App* app) {
     const std::string from = folder ? o->from + "/trajectory.tum" : o->from;
     RequireOutput("--out", o->out);
     RequireNoInput("--out", o->out, {from, o->camera_of});
-    Trajectory trajectory = ReadTum(from);
+    Trajectory trajectory = ReadTrajectory(from);
     if (!o->camera_of.empty()) trajectory = formats::CameraTrajectory(trajectory, LoadRig(o->camera_of));
     formats::WriteTrajectory(o->out, kFormats.at(o->format), trajectory);
     std::printf("%s: %zu poses%s\n", o->out.c_str(), trajectory.size(),

@@ -16,6 +16,7 @@
 #include "common/localization/place_index_file.h"
 #include "common/localization/prior_text.h"
 #include "tools/evit/commands.h"
+#include "tools/evit/options.h"
 #include "tools/evit/place_options.h"
 #include "tools/locate/candidates_picture.h"
 #include "tools/locate/locator_run.h"
@@ -74,7 +75,7 @@ std::string Held(const locate::LocatorResult& result) {
 // One start after the other, evenly over the recording. False: one was wrong.
 bool LocateOften(const LocateOptions& o, const locate::RecordedStreams& streams,
                  const std::function<locate::LocatorResult(Utime)>& run) {
-  const Trajectory truth = ReadTum(o.truth);
+  const Trajectory truth = ReadTrajectory(o.truth);
   locate::StartTally tally;
   const double span = ToSeconds(streams.end() - streams.begin()) - 1.5;  // less is too short to be sure
   if (span <= 0) throw std::runtime_error(o.log + ": is shorter than 1.5 s: leave --starts out");
@@ -141,7 +142,7 @@ int Locate(const LocateOptions& o) {
   std::printf("found after %.2f s: --initial-pose \"%s\"\n", result.after_s,
               line.substr(line.find(' ') + 1).c_str());
   bool right = true;
-  if (!o.truth.empty()) std::printf("%s\n", Compared(result, ReadTum(o.truth), &right).c_str());
+  if (!o.truth.empty()) std::printf("%s\n", Compared(result, ReadTrajectory(o.truth), &right).c_str());
   return right ? 0 : 2;
 }
 

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -64,12 +65,19 @@ int Main(int argc, char** argv) {
   return 0;
 }
 
+// What a command printed may be its whole result. A reader that went away (| head) had enough.
+int Flushed(int code) {
+  if (std::fflush(stdout) == 0 || errno == EPIPE || code != 0) return code;
+  std::perror("evit: error: standard output");
+  return 1;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   evit::RemoveStagedFilesOnSignals();
   try {
-    return Main(argc, argv);
+    return Flushed(Main(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "evit: error: %s\n", error.what());
     return 1;

@@ -38,6 +38,13 @@ SE3 ParseTransform(const std::string& option, const std::string& text) {
   return SE3(Eigen::Matrix4d(m));
 }
 
+Trajectory ReadTrajectory(const std::string& path) {
+  TumSkipped skipped;
+  Trajectory trajectory = ReadTum(path, &skipped);
+  if (skipped.rows > 0) std::fprintf(stderr, "note: %s\n", skipped.Text(path).c_str());
+  return trajectory;
+}
+
 std::string CommandLineOfThis() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::string line;

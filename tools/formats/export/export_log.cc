@@ -73,7 +73,7 @@ void WriteEvents(const LogExport& job, Writer writer, const std::function<void(d
 }  // namespace
 
 ExportSummary ExportLog(const LogExport& job, const std::function<void(double)>& progress) {
-  const LogStreams streams = ScanLog(job.log);
+  const LogStreams streams = ScanLog(job.log, job.allow_truncated);
   if (streams.first_event < 0)
     throw std::runtime_error(job.log + ": has stamps before zero, which these formats cannot hold");
   switch (job.format) {

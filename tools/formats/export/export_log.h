@@ -10,7 +10,8 @@ enum class ExportFormat { kRpg, kDsec, kEvt3 };
 struct LogExport {
   std::string log, out;  // out: a folder for RPG's text, else the file of the events
   ExportFormat format = ExportFormat::kRpg;
-  int width = 0, height = 0;  // of the sensor, for EVT3's header; 0: what holds all events
+  bool allow_truncated = false;  // of a log that was cut off: what is whole of it is written
+  int width = 0, height = 0;     // of the sensor, for EVT3's header; 0: what holds all events
 };
 
 struct ExportSummary {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <random>
 
 #include "tests/helpers/imported_log.h"
@@ -65,6 +66,18 @@ class ExportTest : public ::testing::Test {
 };
 
 TEST_F(ExportTest, RpgsTextRoundTrips) { ExpectMade(RoundTrip(ExportFormat::kRpg, "rpg", true)); }
+
+TEST_F(ExportTest, OfALogThatWasCutOffTheCompleteMessagesAreWrittenOnlyWhereAskedFor) {
+  std::filesystem::resize_file(log_, std::filesystem::file_size(log_) / 2);
+  LogExport job;
+  job.log = log_;
+  job.out = folder_.File("rpg");
+  EXPECT_THAT([&] { ExportLog(job, [](double) {}); },
+              ::testing::ThrowsMessage<std::runtime_error>(::testing::HasSubstr("--allow-truncated")));
+  EXPECT_FALSE(std::filesystem::exists(job.out));
+  job.allow_truncated = true;
+  EXPECT_GT(ExportLog(job, [](double) {}).n_events, 0);
+}
 
 TEST_F(ExportTest, DsecsHdf5RoundTrips) { ExpectMade(RoundTrip(ExportFormat::kDsec, "events.h5", false)); }
 

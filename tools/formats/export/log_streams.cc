@@ -40,9 +40,15 @@ void ReadLogEvents(const std::string& path,
   }
 }
 
-LogStreams ScanLog(const std::string& path) {
+LogStreams ScanLog(const std::string& path, bool allow_truncated) {
   LogStreams streams;
   const LogReader log(path);
+  if (log.trailing_bytes() > 0 && !allow_truncated) {
+    throw std::runtime_error(path + ": is truncated or damaged after " +
+                             std::to_string(log.entries().size()) +
+                             " complete messages; make it again, or export the complete ones with "
+                             "--allow-truncated");
+  }
   const Channels channels;
   std::vector<std::uint8_t> bytes;
   for (const LogEntry& entry : log.entries()) {

@@ -19,9 +19,9 @@ struct LogStreams {
   int width = 0, height = 0;  // pixels that all events fit in
 };
 
-/// One pass without keeping the events. Throws std::runtime_error naming the file: damaged, or without
-/// events.
-LogStreams ScanLog(const std::string& path);
+/// One pass without keeping the events. Throws std::runtime_error naming the file: damaged, cut off (unless
+/// allowed), or without events.
+LogStreams ScanLog(const std::string& path, bool allow_truncated);
 
 /// Hands out the events, piece by piece, with the share of the log that was read.
 void ReadLogEvents(const std::string& path, const std::function<void(const EventArray&, double share)>& take);

@@ -1,7 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <sys/resource.h>
 
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -119,6 +123,32 @@ TEST_F(EventFileTest, OutOfOrderIsRefusedWithTheIndex) {
 TEST_F(EventFileTest, UnwritableFolderIsNamed) {
   EXPECT_THAT([&] { EventFileWriter writer(Path("no/such/folder.hdf5"), 0); },
               ThrowsMessage<std::runtime_error>(HasSubstr("folder.hdf5")));
+}
+
+// A file may not grow beyond so many bytes: as on a full disk. In a process of its own, down to its exit.
+TEST(EventFileWriterDeathTest, AFullDiskIsAnErrorAndNoCrash) {
+  const auto fill = [] {
+    const rlimit limit = {100'000, 100'000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, SIG_IGN);
+    const std::string path = (std::filesystem::temp_directory_path() / "event_file_full.h5").string();
+    int code = 1;
+    try {
+      EventFileWriter writer(path, 0);
+      std::mt19937 rng(1);
+      EventArray events;
+      for (Utime t = 0; t < 1'000'000; t += 1 + static_cast<Utime>(rng() % 3))
+        events.push_back(t, static_cast<std::uint16_t>(rng()), static_cast<std::uint16_t>(rng()),
+                         static_cast<std::uint8_t>(rng() % 2));
+      writer.Append(events);
+      writer.Close();
+    } catch (const std::runtime_error& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      code = std::filesystem::exists(path + ".part") ? 3 : 2;
+    }
+    std::exit(code);
+  };
+  EXPECT_EXIT(fill(), ::testing::ExitedWithCode(2), "event_file_full.h5");
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ std::size_t Filter(unsigned flags, std::size_t n_values, const unsigned* values,
 }  // namespace
 
 void RegisterZstdFilter() {
+  H5dont_atexit();  // it would crash there after a file could not be closed: on a full disk
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are ours to word
   if (H5Zfilter_avail(kZstdFilter) > 0) return;
   const H5Z_class2_t filter{H5Z_CLASS_T_VERS, kZstdFilter, 1, 1, "Zstandard", nullptr, nullptr, Filter};
