@@ -190,7 +190,10 @@ std::string WindowTracker::WhyFalseStart(Utime t) const {
 std::optional<SE3> WindowTracker::SearchRival(const KeyframeInput& keyframe, const Eigen::Vector3d& rate,
                                               bool coasting) {
   if (!rivals_.Due(keyframe.t, coasting)) return std::nullopt;
-  const AlignmentPoints points = points_->Select(state(), rate, points_->affordable(), keyframe.seq);
+  // With more points the pose of this keyframe would come too late, as the search comes before it.
+  constexpr int kEnough = 4000;
+  const int n = std::min(points_->affordable(), kEnough);
+  const AlignmentPoints points = points_->Select(state(), rate, n, keyframe.seq);
   if (points.size() < kMinPoints) return std::nullopt;
   const SurfaceField field(keyframe.surface, kRivalRange.levels);
   const SE3& pose = state().T_map_body;
