@@ -15,11 +15,27 @@ constexpr Utime kBin = 10'000;  // us
 std::vector<double> EventRates(const EventCensus& events, std::size_t size) {
   std::vector<double> rates(size, std::nan(""));
   const std::size_t per = kBin / EventCensus::kBin;
+  double total = 0, known = 0;
+  std::vector<bool> empty;
   for (std::size_t k = 0; k < size && (k + 1) * per <= events.bins().size(); ++k) {
     double n = 0;
     for (std::size_t b = k * per; b < (k + 1) * per; ++b)
       n += static_cast<double>(events.bins()[b].brighter) + static_cast<double>(events.bins()[b].darker);
     rates[k] = std::log(n + 10);
+    total += n, ++known;
+    empty.push_back(n == 0);
+  }
+  // What a driver lost says nothing of the motion: as long without an event as would else hold a thousand.
+  const double hole = 1000 * known / std::max(total, 1.0);
+  for (std::size_t begin = 0; begin < empty.size(); ++begin) {
+    std::size_t end = begin;
+    while (end < empty.size() && empty[end]) ++end;
+    if (static_cast<double>(end - begin) > std::max(hole, 5.0)) {
+      // With the bins that it begins and ends in.
+      for (std::size_t k = begin > 0 ? begin - 1 : 0; k < std::min(end + 1, empty.size()); ++k)
+        rates[k] = std::nan("");
+    }
+    begin = std::max(begin, end);
   }
   return rates;
 }

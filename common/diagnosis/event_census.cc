@@ -7,8 +7,8 @@ namespace evit::diagnosis {
 namespace {
 
 constexpr Utime kNever = std::numeric_limits<Utime>::min() / 2;
-constexpr Utime kCompany = 10'000;  // us
-constexpr int kNear = 2;            // pixels
+constexpr std::int64_t kJudged = 4;  // one of so many events
+constexpr int kNear = 2;             // pixels
 constexpr Utime kMostBins = 3'600'000;
 
 }  // namespace
@@ -19,17 +19,18 @@ EventCensus::EventCensus(int width, int height)
       by_pixel_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0),
       fired_(by_pixel_.size(), kNever) {}
 
-bool EventCensus::IsAlone(Utime t, int x, int y) const {
+void EventCensus::JudgeCompany(Utime t, int x, int y) {
+  Utime newest = kNever;
   for (int v = std::max(0, y - kNear); v <= std::min(height_ - 1, y + kNear); ++v) {
     for (int u = std::max(0, x - kNear); u <= std::min(width_ - 1, x + kNear); ++u) {
       if (u == x && v == y) continue;  // a pixel that fires by itself is not company
-      if (t - fired_[static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) +
-                     static_cast<std::size_t>(u)] <=
-          kCompany)
-        return false;
+      newest = std::max(newest, fired_[static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) +
+                                       static_cast<std::size_t>(u)]);
     }
   }
-  return true;
+  ++company_.judged;
+  for (std::size_t k = 0; k < Company::kWithin.size(); ++k)
+    company_.alone[k] += t - newest > Company::kWithin[k] ? 1 : 0;
 }
 
 void EventCensus::Add(const EventArray& events) {
@@ -56,7 +57,7 @@ void EventCensus::Add(const EventArray& events) {
     }
     const std::size_t pixel =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-    if (IsAlone(t, x, y)) ++alone_;
+    if (count_ % kJudged == 0) JudgeCompany(t, x, y);
     ++by_pixel_[pixel];
     fired_[pixel] = t;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -26,8 +27,15 @@ class EventCensus {
   std::int64_t outside() const { return outside_; }
   /// With a stamp before that of the event in front of it.
   std::int64_t backward() const { return backward_; }
-  /// Nothing within two pixels had fired in the 10 ms before: noise, mostly.
-  std::int64_t alone() const { return alone_; }
+  /// Of every fourth event: whether any of the 24 pixels around had fired within a time before it. Those of
+  /// an edge had; noise has company by chance only.
+  struct Company {
+    static constexpr std::array<Utime, 5> kWithin = {10'000, 5'000, 2'500, 1'250, 625};  // us
+    std::int64_t judged = 0;
+    std::array<std::int64_t, kWithin.size()> alone{};  // in each of these times
+    static constexpr int kPixels = 24;
+  };
+  const Company& company() const { return company_; }
   Utime first() const { return first_; }
   Utime last() const { return last_; }
   double seconds() const { return count_ > 1 ? ToSeconds(last_ - first_) : 0; }
@@ -44,10 +52,11 @@ class EventCensus {
   const std::vector<Bin>& bins() const { return bins_; }
 
  private:
-  bool IsAlone(Utime t, int x, int y) const;
+  void JudgeCompany(Utime t, int x, int y);
 
   int width_, height_;
-  std::int64_t count_ = 0, brighter_ = 0, outside_ = 0, backward_ = 0, alone_ = 0;
+  std::int64_t count_ = 0, brighter_ = 0, outside_ = 0, backward_ = 0;
+  Company company_;
   Utime first_ = 0, last_ = 0, newest_ = 0;
   int max_x_ = -1, max_y_ = -1;
   std::vector<std::uint32_t> by_pixel_;

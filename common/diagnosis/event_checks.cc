@@ -187,12 +187,23 @@ Finding DeadPixels(const EventCensus& e) {
   return Good("dead-pixels", figure);
 }
 
+// The share of noise: how many events have no company, of how many would have none if all were noise. In the
+// longest time in which noise of this rate would still be without company half of the time.
 Finding Noise(const EventCensus& e) {
-  const double share =
-      static_cast<double>(e.alone()) / static_cast<double>(std::max<std::int64_t>(1, e.count()));
-  const std::string figure = FormatText("%.0f %% of the events isolated", 100 * share);
-  if (share > 0.5) {
-    return {"event-noise", share > 0.8 ? Severity::kError : Severity::kWarning, figure,
+  constexpr double kTelling = 0.5;
+  const EventCensus::Company& company = e.company();
+  const double rate = static_cast<double>(e.count()) / std::max(e.seconds(), 1e-3) /
+                      static_cast<double>(e.by_pixel().size());  // of a pixel
+  std::size_t k = 0;
+  const auto chance = [&] {
+    return std::exp(-rate * EventCensus::Company::kPixels * ToSeconds(EventCensus::Company::kWithin[k]));
+  };
+  while (chance() < kTelling && k + 1 < EventCensus::Company::kWithin.size()) ++k;
+  const double judged = static_cast<double>(std::max<std::int64_t>(1, company.judged));
+  const double share = std::min(1.0, static_cast<double>(company.alone[k]) / judged / chance());
+  const std::string figure = FormatText("%.0f %% of the events isolated, as noise is", 100 * share);
+  if (chance() > 0.1 && share > 0.6) {
+    return {"event-noise", share > 0.85 ? Severity::kError : Severity::kWarning, figure,
             "Most events have no other near them in space and time: noise, or too little motion.",
             "raise the camera's thresholds or its low-pass (bias_fo), give it more light, move more"};
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "common/diagnosis/imu_unit_checks.h"
 #include "common/diagnosis/median.h"
@@ -69,6 +70,7 @@ Finding Gaps(const std::vector<double>& steps) {
 // Readings that stay at one extreme value: cut off there, whatever the rig file says.
 Finding Saturation(const std::vector<ImuSample>& samples, const ImuNoise& limits) {
   std::size_t cut = 0;
+  std::vector<bool> any(samples.size(), false);
   double at_gyro = 0, at_accel = 0;
   for (int axis = 0; axis < 6; ++axis) {
     const bool gyro = axis < 3;
@@ -78,17 +80,20 @@ Finding Saturation(const std::vector<ImuSample>& samples, const ImuNoise& limits
     double largest = 0;
     for (const ImuSample& s : samples) largest = std::max(largest, value(s));
     const double range = gyro ? limits.gyro_range : limits.accel_range;
-    std::size_t at = 0, run = 0;
-    for (const ImuSample& s : samples) {
-      run = value(s) >= 0.9999 * largest || value(s) >= 0.99 * range ? run + 1 : 0;
-      at += run == 3 ? 3 : run > 3 ? 1 : 0;
-    }
     if (largest < (gyro ? 1.0 : 12.0))
       continue;  // a reading that rests at its extreme is not a clipped motion
+    std::size_t at = 0, run = 0;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      run = value(samples[k]) >= 0.9999 * largest || value(samples[k]) >= 0.99 * range ? run + 1 : 0;
+      if (run < 3) continue;
+      at += run == 3 ? 3 : 1;
+      for (std::size_t back = 0; back < 3; ++back) any[k - back] = true;
+    }
     if (at > 0) (gyro ? at_gyro : at_accel) = largest;
     cut += at;
   }
-  const double share = static_cast<double>(cut) / static_cast<double>(samples.size());
+  const double share =
+      static_cast<double>(std::count(any.begin(), any.end(), true)) / static_cast<double>(samples.size());
   const std::string figure = FormatText("%zu readings cut off", cut);
   if (cut == 0) return Good("imu-saturation", figure);
   return {"imu-saturation", share > 0.02 ? Severity::kError : Severity::kWarning, figure,

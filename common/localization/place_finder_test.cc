@@ -74,7 +74,8 @@ TEST(PlaceFinder, WithAPlaceThatFitsItNamesAllThatLookLikeIt) {
   const std::vector<PlaceCandidate> places = room.finder.Answer(query);
   ExpectNear(places.at(0).T_map_body, kHere);
   for (const double quarter : {1, 2, 3}) {
-    const SE3 turned = SE3(ExpSO3(Eigen::Vector3d(0, 0, quarter * EIGEN_PI / 2)), Eigen::Vector3d::Zero()) * kHere;
+    const SE3 turned =
+        SE3(ExpSO3(Eigen::Vector3d(0, 0, quarter * EIGEN_PI / 2)), Eigen::Vector3d::Zero()) * kHere;
     EXPECT_TRUE(std::any_of(places.begin() + 1, places.end(), [&](const PlaceCandidate& place) {
       return (place.T_map_body.p - turned.p).norm() < 0.05 &&
              place.significance > 0.8 * places[0].significance;

@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <fstream>
+#include <random>
 
+#include "common/diagnosis/clock_checks.h"
 #include "common/diagnosis/event_checks.h"
 #include "common/diagnosis/imu_checks.h"
 #include "tests/helpers/paths.h"
@@ -96,6 +98,63 @@ TEST(DoctorTest, RowsOfTheTruthThatCannotBeUsedAreTold) {
   for (const Finding& f : Examine(patient, [](double) {}))
     EXPECT_EQ(f.severity, f.check == "truth-order" ? Severity::kWarning : Severity::kGood)
         << f.check << f.figure;
+}
+
+Severity SeverityOf(const std::vector<Finding>& findings, const std::string& check) {
+  for (const Finding& f : findings)
+    if (f.check == check) return f.severity;
+  ADD_FAILURE() << "no check " << check;
+  return Severity::kGood;
+}
+
+// At 10 Hz a pixel noise has company by chance within 10 ms, nearly always; edges that move have at once.
+TEST(DoctorTest, NoiseOfAnyRateIsToldFromEdges) {
+  constexpr int kSize = 100;
+  for (const double hz : {0.5, 3.0, 12.0}) {
+    for (const bool noise : {true, false}) {
+      std::mt19937 rng(1);
+      diagnosis::EventCensus census(kSize, kSize);
+      EventArray events;
+      const int n = static_cast<int>(2 * hz * kSize * kSize);
+      for (int k = 0; k < n; ++k) {
+        const Utime t = Utime{2'000'000} * k / n;
+        const int edge = static_cast<int>(t / 10'000) % kSize;  // a column that moves on by a pixel in 10 ms
+        events.push_back(t, static_cast<std::uint16_t>(noise ? static_cast<int>(rng() % kSize) : edge),
+                         static_cast<std::uint16_t>(rng() % kSize), static_cast<std::uint8_t>(rng() % 2));
+      }
+      census.Add(events);
+      EXPECT_EQ(SeverityOf(diagnosis::CheckEvents(census), "event-noise") == Severity::kGood, !noise) << hz;
+    }
+  }
+}
+
+// Where events are lost the event rate says nothing of the motion, though the camera rested half a second
+// later.
+TEST(DoctorTest, LostEventsAreNoOffsetOfClocks) {
+  diagnosis::EventCensus census(64, 64);
+  EventArray events;
+  std::vector<ImuSample> imu;
+  for (Utime t = 0; t < 3'000'000; t += 1000) {
+    const bool lost = t > 900'000 && t<1'200'000, rests = t> 1'400'000 && t < 1'700'000;
+    imu.push_back({t, {rests ? 0.02 : 1, 0, 0}, {0, 0, 9.81}});
+    for (int k = 0; k < 100 && !lost; ++k)
+      events.push_back(t + k, static_cast<std::uint16_t>(k % 64), static_cast<std::uint16_t>(k / 3 % 64),
+                       k % 2);
+  }
+  census.Add(events);
+  EXPECT_EQ(SeverityOf(diagnosis::CheckClocks(census, imu, 0), "time-offset"), Severity::kGood);
+  EXPECT_EQ(SeverityOf(diagnosis::CheckEvents(census), "event-gaps"), Severity::kWarning);
+}
+
+// Each sample counts once, however many of its axes are cut off.
+TEST(DoctorTest, TimeAtTheLimitIsAtMostAllOfIt) {
+  std::vector<ImuSample> samples;
+  for (int k = 0; k < 600; ++k) samples.push_back({Utime{5000} * k, {4, 4, 4}, {0, 0, 9.81}});
+  for (const Finding& f : diagnosis::CheckImu(samples, GoodSample().rig)) {
+    if (f.check == "imu-saturation") {
+      EXPECT_THAT(f.what, HasSubstr("100.0 %")) << f.figure;
+    }
+  }
 }
 
 // One pixel in 25 is hot, and of the others each third has fired once: none of the rest is dead for that.
