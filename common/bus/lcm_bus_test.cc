@@ -27,7 +27,12 @@ void PollUntil(Bus* bus, const Done& done) {
 
 // Both ways to receive: by LCM's thread, and by the thread that polls.
 class EitherBus : public ::testing::TestWithParam<std::unique_ptr<Bus> (*)(const std::string&)> {};
-INSTANTIATE_TEST_SUITE_P(LcmBus, EitherBus, ::testing::Values(&OpenLcmBus, &OpenDirectLcmBus));
+// With too small a receive buffer the second is the first.
+std::unique_ptr<Bus> OpenWithSmallBuffer(const std::string& url) {
+  return OpenDirectLcmBus(url + "&recv_buf_size=212992");
+}
+INSTANTIATE_TEST_SUITE_P(LcmBus, EitherBus,
+                         ::testing::Values(&OpenLcmBus, &OpenDirectLcmBus, &OpenWithSmallBuffer));
 
 TEST_P(EitherBus, DeliversExactlyThisChannel) {
   const auto bus = GetParam()(kUrl);
