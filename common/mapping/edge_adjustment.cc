@@ -17,7 +17,10 @@ constexpr double kInlierPx = 1.0;
 constexpr int kBorderPx = 6;
 constexpr std::size_t kPointsPerPose = 2500;
 constexpr int kViewsPerPoint = 150;  // about, while points are on their way
-constexpr double kAlike = 5;         // points on one edge err together: so many of them are worth one
+// What is left of a direction where it is turned, nearly the cosine of the angle: less, and the views do not
+// show one line.
+constexpr double kOneLine = 0.8;
+constexpr double kAlike = 5;  // points on one edge err together: so many of them are worth one
 
 // A point's distance to the edge it is seen as, across, and its derivative by the point in the camera frame.
 struct Sighting {
@@ -51,6 +54,26 @@ bool Look(const PinholeView& pinhole, const PosedEdges& view, const MappedPoint&
     sighting->by_point = normal * jacobian;
   }
   return true;
+}
+
+// How many of so many views count as independent: poses' errors do not average out over neighbouring ones.
+double Independent(double seen) { return seen / std::max(1.0, std::min(10.0, seen / 3)); }
+
+// Each view's edge and the camera span a plane that holds the line: seen from different places, these planes
+// tell how it slants, which its neighbours' depths tell badly where it is short and far. With a wrong slant,
+// what a point's depth is off would seem to be along its line, and of no account. `information`: about the
+// point's position, of the views (m^-2).
+void TurnIntoPlanes(const Eigen::Matrix3d& information, double independent,
+                    const EdgeAdjustmentOptions& options, Eigen::Vector3d* direction) {
+  const double trace = information.trace();
+  if (!(trace > 0)) return;
+  // A step of a metre across is an angle of fx / z pixels: the trace has it.
+  const Eigen::Matrix3d planes =
+      independent / (options.normal_sigma * options.normal_sigma) / trace * information;
+  const Eigen::Matrix3d held =
+      Eigen::Matrix3d::Identity() / (options.direction_sigma * options.direction_sigma);
+  const Eigen::Vector3d turned = *direction - (planes + held).ldlt().solve(planes * *direction);
+  if (turned.allFinite() && turned.norm() > kOneLine) *direction = turned.normalized();
 }
 
 double Median(std::vector<double> values) {
@@ -201,6 +224,7 @@ AdjustmentSummary EdgeAdjustment::Run(std::vector<MappedPoint>* points) {
       const double strict = last ? 1 : 0.6;
       if (total.seen < strict * options_.min_views / search.every || point.seen < strict * options_.min_share)
         continue;
+      TurnIntoPlanes(total.information, Independent(total.seen), options_, &point.direction);
       // Of the lag nothing but its prior is known where there are no event views, and nothing changes.
       total.lag_information += 1 / (options_.lag_sigma_px * options_.lag_sigma_px);
       total.lag_gradient += point.lag / (options_.lag_sigma_px * options_.lag_sigma_px);
@@ -218,8 +242,7 @@ AdjustmentSummary EdgeAdjustment::Run(std::vector<MappedPoint>* points) {
           total.information + held * point.direction * point.direction.transpose();
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(information);
       const double weakest = solver.eigenvalues()[0];
-      // Poses' errors do not average out over neighbouring views: a view in ten counts as independent.
-      point.sigma = weakest > 0 ? std::sqrt(std::max(1.0, std::min(10.0, total.seen / 3.0)) / weakest) : 1;
+      point.sigma = weakest > 0 ? std::sqrt(total.seen / Independent(total.seen) / weakest) : 1;
       if (!last && weakest > 0) {
         Eigen::Vector3d step = -solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() *
                                solver.eigenvectors().transpose() * total.gradient;

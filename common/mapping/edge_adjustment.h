@@ -14,6 +14,8 @@ struct EdgeAdjustmentOptions {
   // How well the poses are known that were given.
   double pose_sigma_m = 0.003, pose_sigma_deg = 0.15;
   double edge_sigma_px = 0.35;
+  double normal_sigma = 0.03;                          // rad, of an edge's direction in one view
+  double direction_sigma = 0.3;                        // rad, of a point's direction as it is given
   double lag_sigma_px = 0.4;                           // of a point's lag in event views
   double first_radius_px = 2.5, last_radius_px = 1.5;  // within which a point's edge is looked for
   double min_share = 0.25;                             // of the views that should show a point
@@ -30,9 +32,10 @@ struct AdjustmentSummary {
 };
 
 /// Fits points and poses to the edges of all views, by turns: each point to the edges it is seen as (a line
-/// has a place across itself only), each view, within what is known of its pose, to the points that it sees.
-/// So an error of a single view's pose no longer doubles its lines. Afterwards a point knows its sigma, how
-/// many views show it, and which share of those that should; points that too few show are dropped.
+/// has a place across itself only), its direction to how these slant, each view, within what is known of its
+/// pose, to the points that it sees. So an error of a single view's pose no longer doubles its lines.
+/// Afterwards a point knows its sigma, how many views show it, and which share of those that should; points
+/// that too few show are dropped.
 class EdgeAdjustment {
  public:
   EdgeAdjustment(std::vector<PosedEdges>* views, const EdgeAdjustmentOptions& options, int threads)
