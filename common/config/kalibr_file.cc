@@ -162,7 +162,12 @@ Yaml ParseSimpleYaml(const std::string& text, const std::string& path) {
     if (line[indent] == '-' && indent + 1 < line.size() &&
         (line[indent + 1] == ' ' || line[indent + 1] == '[')) {
       if (current.empty()) throw ConfigError(path + ":" + std::to_string(number) + ": a list without a key");
-      add(line.substr(indent + 1));
+      // "- - 0.1": a list in a list, as newer versions of PyYAML write the rows of a matrix.
+      std::size_t value = indent + 1;
+      for (std::size_t at = value;
+           (at = line.find_first_not_of(" \t", at)) != std::string::npos && line.compare(at, 2, "- ") == 0;)
+        value = at = at + 1;
+      add(line.substr(value));
       continue;
     }
     const std::size_t colon = line.find(':');

@@ -90,6 +90,22 @@ TEST_F(KalibrFileTest, TheExtrinsicsAreInvertedAndTheShiftIsMicroseconds) {
   EXPECT_THAT(LoadRigName(Path("camchain.yaml")), HasSubstr("consumer IMU"));
 }
 
+// As PyYAML writes lists since version 5.1.
+TEST_F(KalibrFileTest, ListsMayStandOneNumberALine) {
+  std::string text = kChain;
+  const std::size_t begin = text.find("  - [0.0, -1.0"), end = text.find("  cam_overlaps");
+  text.replace(begin, end - begin,
+               "  - - 0.0\n    - -1.0\n    - 0.0\n    - 0.01\n  - - 0.0\n    - 0.0\n    - -1.0\n    - 0.02\n"
+               "  - - 1.0\n    - 0.0\n    - 0.0\n    - 0.03\n  - - 0.0\n    - 0.0\n    - 0.0\n    - 1.0\n");
+  const std::string flow = "[163.6, 163.7, 152.2, 117.4]";
+  text.replace(text.find(flow), flow.size(), "\n  - 163.6\n  - 163.7\n  - 152.2\n  - 117.4");
+  Write("block.yaml", text);
+  const Rig block = LoadRig(Path("block.yaml")), rig = LoadRig(Path("camchain.yaml"));
+  EXPECT_TRUE(block.T_body_camera.p.isApprox(rig.T_body_camera.p));
+  EXPECT_TRUE(block.T_body_camera.q.isApprox(rig.T_body_camera.q));
+  EXPECT_EQ(block.camera.cx, rig.camera.cx);
+}
+
 TEST_F(KalibrFileTest, ImuFileAndCameraCanBeChosen) {
   Write("imu.yaml", kImu);
   for (const std::string& path :
