@@ -31,13 +31,27 @@ EVIT_ALWAYS_INLINE void CurvatureLanes(const BatchAlignment& c, const FieldLanes
   }
 }
 
-EVIT_ALWAYS_INLINE void DerivativeLanes(const BatchAlignment& c, const BodyLanes& p, const FieldLanes& f,
-                                        const float* residual, const float* weight, AlignmentSums* sums) {
+// The same with all of H, and of the kernel: M = (rho' + 2 rho'' r^2) g g^T + rho' r H.
+EVIT_ALWAYS_INLINE void ExactCurvatureLanes(const BatchAlignment& c, const FieldLanes& f,
+                                            const float* residual, const float* slope, const float* bend,
+                                            PlaneLanes* out) {
+  for (int l = 0; l < kLanes; ++l) {
+    const float r = residual[l], rs = slope[l] * r * c.inverse_sigma;
+    const float along = slope[l] + 2 * bend[l] * r * r;
+    const float gx = c.inverse_sigma * f.gx[l], gy = c.inverse_sigma * f.gy[l];
+    out->m00[l] = along * gx * gx + rs * f.hxx[l];
+    out->m11[l] = along * gy * gy + rs * f.hyy[l];
+    out->m01[l] = along * gx * gy + rs * f.hxy[l];
+    out->g0[l] = slope[l] * r * gx;
+    out->g1[l] = slope[l] * r * gy;
+  }
+}
+
+EVIT_ALWAYS_INLINE void DerivativeLanes(const BatchAlignment& c, const BodyLanes& p, const PlaneLanes& m,
+                                        AlignmentSums* sums) {
   alignas(64) float U[6][kLanes], V[6][kLanes];
-  PlaneLanes m;
   JacobianLanes(c, p, p.dxx, p.dxy, c.camera.fx, U);
   JacobianLanes(c, p, p.dxy, p.dyy, c.camera.fy, V);
-  CurvatureLanes(c, f, residual, weight, &m);
   float(*hessian)[kLanes] = sums->hessian;
   for (int i = 0; i < 6; ++i) {
     alignas(64) float a0[kLanes], a1[kLanes];
@@ -54,49 +68,70 @@ EVIT_ALWAYS_INLINE void DerivativeLanes(const BatchAlignment& c, const BodyLanes
   }
 }
 
-template <Camera::Model kModel, bool kDerivatives>
+template <Camera::Model kModel, AlignmentPart kPart>
 EVIT_ALWAYS_INLINE void AddBlock(const BatchAlignment& c, const float* x, const float* y, const float* z,
                                  int n, AlignmentSums* sums) {
   BodyLanes p;
   FieldLanes f;
   ProjectLanes<kModel>(c, x, y, z, &p);
-  SampleLanes<kDerivatives>(c.field, p.u, p.v, &f);
+  SampleLanes<kPart != AlignmentPart::kCost>(c.field, p.u, p.v, &f);
   alignas(64) float residual[kLanes], squared[kLanes], weight[kLanes] = {};
   for (int l = 0; l < kLanes; ++l) {
     residual[l] = (p.ahead[l] * f.value[l] + (1 - p.ahead[l]) * 255) * c.inverse_sigma;
     squared[l] = residual[l] * residual[l];
   }
   sums->rho += KernelLanes(c.kernel, squared, n, weight);
-  if (!kDerivatives) return;
-  for (int l = 0; l < kLanes; ++l) weight[l] *= l < n ? p.ahead[l] : 0;
-  DerivativeLanes(c, p, f, residual, weight, sums);
+  if (kPart == AlignmentPart::kCost) return;
+  PlaneLanes m;
+  if (kPart == AlignmentPart::kExact) {
+    alignas(64) float bend[kLanes] = {};
+    KernelSlopeLanes(c.kernel, squared, weight, bend);
+    for (int l = 0; l < kLanes; ++l) {
+      const float counts = l < n ? p.ahead[l] : 0;
+      weight[l] *= counts;
+      bend[l] *= counts;
+    }
+    ExactCurvatureLanes(c, f, residual, weight, bend, &m);
+  } else {
+    for (int l = 0; l < kLanes; ++l) weight[l] *= l < n ? p.ahead[l] : 0;
+    CurvatureLanes(c, f, residual, weight, &m);
+  }
+  DerivativeLanes(c, p, m, sums);
 }
 
-template <Camera::Model kModel, bool kDerivatives>
+template <Camera::Model kModel, AlignmentPart kPart>
 EVIT_ALWAYS_INLINE void AddAll(const BatchAlignment& c, const PointArrays& points, AlignmentSums* sums) {
   const float *x = points.x(), *y = points.y(), *z = points.z();
   const auto n = static_cast<int>(points.size());
   for (int k = 0; k < n; k += kLanes) {
-    AddBlock<kModel, kDerivatives>(c, x + k, y + k, z + k, n - k < kLanes ? n - k : kLanes, sums);
+    AddBlock<kModel, kPart>(c, x + k, y + k, z + k, n - k < kLanes ? n - k : kLanes, sums);
   }
 }
 
 constexpr auto kPlumbBob = Camera::Model::kPlumbBob;
 constexpr auto kEquidistant = Camera::Model::kEquidistant;
 
-EVIT_MULTIVERSION_WIDE void PlumbBobTerm(const BatchAlignment& c, const PointArrays& p, AlignmentSums* sums) {
-  AddAll<kPlumbBob, true>(c, p, sums);
-}
 EVIT_MULTIVERSION_WIDE void PlumbBobCost(const BatchAlignment& c, const PointArrays& p, AlignmentSums* sums) {
-  AddAll<kPlumbBob, false>(c, p, sums);
+  AddAll<kPlumbBob, AlignmentPart::kCost>(c, p, sums);
 }
-EVIT_MULTIVERSION_WIDE void EquidistantTerm(const BatchAlignment& c, const PointArrays& p,
-                                            AlignmentSums* sums) {
-  AddAll<kEquidistant, true>(c, p, sums);
+EVIT_MULTIVERSION_WIDE void PlumbBobSafe(const BatchAlignment& c, const PointArrays& p, AlignmentSums* sums) {
+  AddAll<kPlumbBob, AlignmentPart::kSafe>(c, p, sums);
+}
+EVIT_MULTIVERSION_WIDE void PlumbBobExact(const BatchAlignment& c, const PointArrays& p,
+                                          AlignmentSums* sums) {
+  AddAll<kPlumbBob, AlignmentPart::kExact>(c, p, sums);
 }
 EVIT_MULTIVERSION_WIDE void EquidistantCost(const BatchAlignment& c, const PointArrays& p,
                                             AlignmentSums* sums) {
-  AddAll<kEquidistant, false>(c, p, sums);
+  AddAll<kEquidistant, AlignmentPart::kCost>(c, p, sums);
+}
+EVIT_MULTIVERSION_WIDE void EquidistantSafe(const BatchAlignment& c, const PointArrays& p,
+                                            AlignmentSums* sums) {
+  AddAll<kEquidistant, AlignmentPart::kSafe>(c, p, sums);
+}
+EVIT_MULTIVERSION_WIDE void EquidistantExact(const BatchAlignment& c, const PointArrays& p,
+                                             AlignmentSums* sums) {
+  AddAll<kEquidistant, AlignmentPart::kExact>(c, p, sums);
 }
 void Copy(const Eigen::Matrix3d& R, const Eigen::Vector3d& t, float* to_R, float* to_t) {
   for (int r = 0; r < 3; ++r) {
@@ -123,12 +158,15 @@ BatchAlignment::BatchAlignment(const AlignmentSettings& settings, const SurfaceF
       inverse_sigma(static_cast<float>(1 / settings.image_sigma)),
       kernel(settings.kernel) {}
 
-void SumAlignment(const BatchAlignment& batch, const PointArrays& points, bool derivatives,
+void SumAlignment(const BatchAlignment& batch, const PointArrays& points, AlignmentPart part,
                   AlignmentSums* sums) {
-  if (derivatives) {
-    (batch.fisheye ? EquidistantTerm : PlumbBobTerm)(batch, points, sums);
-  } else {
-    (batch.fisheye ? EquidistantCost : PlumbBobCost)(batch, points, sums);
+  switch (part) {
+    case AlignmentPart::kCost:
+      return (batch.fisheye ? EquidistantCost : PlumbBobCost)(batch, points, sums);
+    case AlignmentPart::kSafe:
+      return (batch.fisheye ? EquidistantSafe : PlumbBobSafe)(batch, points, sums);
+    case AlignmentPart::kExact:
+      return (batch.fisheye ? EquidistantExact : PlumbBobExact)(batch, points, sums);
   }
 }
 

@@ -37,7 +37,10 @@ struct AlignmentSums {
   alignas(64) float hessian[21][kLanes] = {};
 };
 
-void SumAlignment(const BatchAlignment& batch, const PointArrays& points, bool derivatives,
+/// What of it: the cost alone; gradient and Hessian too, the Hessian from each point's positive curvature
+/// alone (AlignmentTerm); or from all of it, signs and all.
+enum class AlignmentPart { kCost, kSafe, kExact };
+void SumAlignment(const BatchAlignment& batch, const PointArrays& points, AlignmentPart part,
                   AlignmentSums* sums);
 
 /// Sum over the lanes, in their order.

@@ -85,36 +85,6 @@ EVIT_ALWAYS_INLINE void Plane(const BatchAlignment& c, const PointArrays& points
   }
 }
 
-template <Model kModel>
-EVIT_ALWAYS_INLINE void Curvature(const BatchAlignment& c, const PointArrays& points, CurvatureSums* sums) {
-  for (std::size_t k = 0; k < points.size(); k += kLanes) {
-    const std::size_t left = points.size() - k;
-    BodyLanes p;
-    PlaneLanes m;
-    alignas(64) float U[6][kLanes], V[6][kLanes];
-    ProjectLanes<kModel>(c, points.x() + k, points.y() + k, points.z() + k, &p);
-    SampleOnPlane(c, p, &m);
-    for (int l = 0; l < kLanes; ++l) {
-      const float weight = static_cast<std::size_t>(l) < left ? m.inside[l] : 0;
-      m.cuu[l] *= weight, m.cuv[l] *= weight, m.cvv[l] *= weight;
-    }
-    JacobianLanes(c, p, p.dxx, p.dxy, c.camera.fx, U);
-    JacobianLanes(c, p, p.dxy, p.dyy, c.camera.fy, V);
-    float(*hessian)[kLanes] = sums->hessian;
-    for (int i = 0; i < 6; ++i) {
-      alignas(64) float a[kLanes], b[kLanes];
-      for (int l = 0; l < kLanes; ++l) {
-        a[l] = m.cuu[l] * U[i][l] + m.cuv[l] * V[i][l];
-        b[l] = m.cuv[l] * U[i][l] + m.cvv[l] * V[i][l];
-      }
-      for (int j = i; j < 6; ++j) {
-        float* const __restrict cell = *hessian++;
-        for (int l = 0; l < kLanes; ++l) cell[l] += a[l] * U[j][l] + b[l] * V[j][l];
-      }
-    }
-  }
-}
-
 EVIT_MULTIVERSION_WIDE void PlumbBobBeside(const BatchAlignment& c, const PointArrays& p, float shift,
                                            BesideSamples* out) {
   Beside<Model::kPlumbBob>(c, p, shift, out);
@@ -129,14 +99,6 @@ EVIT_MULTIVERSION_WIDE void PlumbBobPlane(const BatchAlignment& c, const PointAr
 EVIT_MULTIVERSION_WIDE void EquidistantPlane(const BatchAlignment& c, const PointArrays& p,
                                              PlaneSamples* out) {
   Plane<Model::kEquidistant>(c, p, out);
-}
-EVIT_MULTIVERSION_WIDE void PlumbBobCurvature(const BatchAlignment& c, const PointArrays& p,
-                                              CurvatureSums* sums) {
-  Curvature<Model::kPlumbBob>(c, p, sums);
-}
-EVIT_MULTIVERSION_WIDE void EquidistantCurvature(const BatchAlignment& c, const PointArrays& p,
-                                                 CurvatureSums* sums) {
-  Curvature<Model::kEquidistant>(c, p, sums);
 }
 
 }  // namespace
@@ -154,10 +116,6 @@ PlaneSamples SamplePlane(const BatchAlignment& batch, const PointArrays& points)
                          &samples.cuu, &samples.cuv, &samples.cvv});
   (batch.fisheye ? EquidistantPlane : PlumbBobPlane)(batch, points, &samples);
   return samples;
-}
-
-void SumCurvature(const BatchAlignment& batch, const PointArrays& points, CurvatureSums* sums) {
-  (batch.fisheye ? EquidistantCurvature : PlumbBobCurvature)(batch, points, sums);
 }
 
 }  // namespace evit

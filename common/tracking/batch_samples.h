@@ -30,11 +30,4 @@ struct PlaneSamples {
 };
 PlaneSamples SamplePlane(const BatchAlignment& batch, const PointArrays& points);
 
-/// The sum of these curvatures over the points in the image, as the upper triangle, row by row, over
-/// (position in the body frame, rotation): each element kept by lane, as in AlignmentSums.
-struct CurvatureSums {
-  alignas(64) float hessian[21][kLanes] = {};
-};
-void SumCurvature(const BatchAlignment& batch, const PointArrays& points, CurvatureSums* sums);
-
 }  // namespace evit

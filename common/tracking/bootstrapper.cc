@@ -21,10 +21,13 @@ constexpr int kRivalSearches = 3;  // before a start counts: one misses the righ
 constexpr std::int64_t kOtherPlaces = 331;  // added to a frame's number: other places than its neighbours try
 constexpr int kPatience = 100;              // frames that do not fit before the start counts as failed
 
-// What the window may believe of its first state: the accuracy of an event-only pose and of the alignment.
-StatePrior FirstPrior(const BodyState& state) {
+// What the window may believe of its first state: the accuracy of an event-only pose and of the alignment. Of
+// the biases what was known before: a tenth of a second of frames says nothing of them, and what the
+// alignment makes of the frames' noise (0.02 rad/s on recordings) would take seconds to go away.
+StatePrior FirstPrior(const BodyState& state, const ImuBias& bias) {
   StatePrior prior;
   prior.mean = state;
+  prior.mean.bias = bias;
   const auto set = [&](int row, double sigma) {
     prior.information.diagonal().segment<3>(row).setConstant(1 / (sigma * sigma));
   };
@@ -201,7 +204,7 @@ void Bootstrapper::Align(Result* result) {
     result->window.push_back(
         {f.frame.t, f.seq, aligned.states[k], std::move(f.field), std::move(f.points), f.frame.imu});
   }
-  result->prior = FirstPrior(result->window.front().state);
+  result->prior = FirstPrior(result->window.front().state, state_.bias);
   result->status = Result::Status::kAligned;
   frames_.clear();
 }

@@ -90,12 +90,12 @@ ChainSummary MinimizeChain(const ChainOptions& options,
     ChainModel next = evaluate(moved);
     const double gain = (model.cost - next.cost) / step.promised;
     if (!IsFinite(next) || !(gain > kLeastGain)) {
-      if (step.promised <= options.function_tolerance * model.cost) break;  // there is nothing left to gain
+      if (step.promised <= options.least_gain) break;  // there is nothing left to gain
       radius /= shrink;
       shrink *= 2;
       continue;
     }
-    const bool last = model.cost - next.cost <= options.function_tolerance * model.cost;
+    const bool last = model.cost - next.cost <= options.least_gain;
     *states = std::move(moved);
     model = std::move(next);
     if (last) break;

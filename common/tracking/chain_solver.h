@@ -21,8 +21,10 @@ struct ChainModel {
 /// When to stop.
 struct ChainOptions {
   int max_iterations = 12;
-  double function_tolerance = 1e-5;  // an iteration that changes the cost by a smaller share is the last
-  double time_budget = 0;            // s; 0: none
+  /// An iteration that lowers the cost by less is the last. The cost is half a chi-square: 0.01 is a seventh
+  /// of a standard deviation, however many residuals there are.
+  double least_gain = 0.01;
+  double time_budget = 0;  // s; 0: none
 };
 
 struct ChainSummary {

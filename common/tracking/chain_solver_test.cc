@@ -89,7 +89,7 @@ TEST(MinimizeChain, OfAQuadraticFunctionIsTheSolutionOfTheWholeSystem) {
 
   ChainOptions options;
   options.max_iterations = 50;
-  options.function_tolerance = 1e-12;
+  options.least_gain = 1e-12;
   const ChainSummary summary = MinimizeChain(options, evaluate, &states);
   EXPECT_TRUE(summary.usable);
   EXPECT_LE(summary.iterations, 12);
@@ -119,7 +119,7 @@ TEST(MinimizeChain, ConvergesWhereTheModelHoldsNearTheSolutionOnly) {
   std::vector<BodyState> states(1);
   ChainOptions options;
   options.max_iterations = 30;
-  options.function_tolerance = 1e-10;
+  options.least_gain = 1e-10;
   EXPECT_TRUE(MinimizeChain(options, evaluate, &states).usable);
   EXPECT_LT(LogSO3(truth.conjugate() * states[0].T_map_body.q).norm(), 1e-4);
 }

@@ -1,5 +1,7 @@
 #include "common/tracking/event_alignment.h"
 
+#include <Eigen/Eigenvalues>
+
 #include "common/tracking/batch_alignment.h"
 #include "common/tracking/batch_samples.h"
 
@@ -14,17 +16,36 @@ AlignmentSettings MakeAlignmentSettings(const Rig& rig, const WindowOptions& opt
   return settings;
 }
 
-AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
-                                const AlignmentPoints& points, const SE3& T_map_body, bool derivatives) {
-  AlignmentSums sums;
-  SumAlignment(BatchAlignment(settings, field, level, points, T_map_body), points.local(), derivatives,
-               &sums);
+namespace {
+
+AlignmentTerm TermOf(const AlignmentSums& sums, const SE3& T_map_body) {
   AlignmentTerm term;
   term.cost = 0.5 * sums.rho;
-  if (!derivatives) return term;
   for (int i = 0; i < 6; ++i) term.gradient[i] = SumLanes(sums.gradient[i]);
   term.gradient.head<3>() = (T_map_body.R() * term.gradient.head<3>()).eval();
   term.hessian = HessianOfLanes(sums.hessian, T_map_body);
+  return term;
+}
+
+}  // namespace
+
+AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
+                                const AlignmentPoints& points, const SE3& T_map_body, bool derivatives) {
+  AlignmentSums sums;
+  SumAlignment(BatchAlignment(settings, field, level, points, T_map_body), points.local(),
+               derivatives ? AlignmentPart::kSafe : AlignmentPart::kCost, &sums);
+  return TermOf(sums, T_map_body);
+}
+
+AlignmentTerm EvaluateAlignmentExactly(const AlignmentSettings& settings, const SurfaceField& field,
+                                       const AlignmentPoints& points, const SE3& T_map_body) {
+  AlignmentSums sums;
+  SumAlignment(BatchAlignment(settings, field, 0, points, T_map_body), points.local(), AlignmentPart::kExact,
+               &sums);
+  AlignmentTerm term = TermOf(sums, T_map_body);
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(term.hessian);
+  term.hessian = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).asDiagonal() *
+                 solver.eigenvectors().transpose();
   return term;
 }
 

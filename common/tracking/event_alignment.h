@@ -49,6 +49,17 @@ struct AlignmentTerm {
 AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const SurfaceField& field, int level,
                                 const AlignmentPoints& points, const SE3& T_map_body, bool derivatives);
 
+/// The same at level 0 with the cost's own curvature, made positive semi-definite only in the sum over
+/// points: what one keyframe's events say of the pose, as an inverse covariance.
+///
+/// The Hessian above counts each point's positive curvature alone, and its gradient in full although a robust
+/// kernel bends back. Steps by it are safe from anywhere, but on the rough surface of a real sensor noise
+/// gives every point such a curvature somewhere, and the sum claims to know a pose of which the events say
+/// little: steps along what they say least of are a fifth as long as they should be, and stop halfway. Here
+/// the noise of many points cancels, and the valley that they share is left.
+AlignmentTerm EvaluateAlignmentExactly(const AlignmentSettings& settings, const SurfaceField& field,
+                                       const AlignmentPoints& points, const SE3& T_map_body);
+
 /// How well projected points sit on a surface's edges, against the same points shifted by some pixels: a
 /// figure that needs no threshold on the scene's texture.
 struct AlignmentQuality {

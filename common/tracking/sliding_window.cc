@@ -1,7 +1,5 @@
 #include "common/tracking/sliding_window.h"
 
-#include "common/tracking/alignment_information.h"
-
 namespace evit {
 
 SlidingWindow::SlidingWindow(AlignmentSettings alignment, double gravity, const WindowOptions& options)
@@ -16,13 +14,6 @@ ImuTerm SlidingWindow::Term(const WindowNode& node) const {
   return ImuTerm(node.imu.get(), gravity_, options_.imu_noise_factor);
 }
 
-AlignmentTerm SlidingWindow::Align(WindowNode* node) const {
-  AlignmentTerm term = AlignNear(node->state.T_map_body, node);
-  // The Hessian of a solver's step claims more than there is to know: it would make the prior sure of noise.
-  term.hessian = AlignmentInformation(alignment_, *node->field, node->points, node->state.T_map_body);
-  return term;
-}
-
 StatePrior SlidingWindow::Eliminate(const StatePrior& prior, const AlignmentTerm& alignment,
                                     std::size_t n) const {
   return Marginalize(prior, alignment, Term(nodes_[n + 1]), nodes_[n].state, nodes_[n + 1].state);
@@ -31,7 +22,7 @@ StatePrior SlidingWindow::Eliminate(const StatePrior& prior, const AlignmentTerm
 void SlidingWindow::Push(WindowNode node) {
   if (nodes_.size() >= static_cast<std::size_t>(options_.size)) {
     if (options_.first_node == WindowOptions::FirstNode::kPrior)
-      prior_ = Eliminate(prior_, Align(&nodes_.front()), 0);
+      prior_ = Eliminate(prior_, AlignNear(nodes_.front().state.T_map_body, &nodes_.front()), 0);
     nodes_.pop_front();
   }
   nodes_.push_back(std::move(node));
@@ -53,7 +44,7 @@ AlignmentTerm SlidingWindow::AlignNear(const SE3& T_map_body, WindowNode* node) 
       return term;
     }
   }
-  local = {true, T_map_body, EvaluateAlignment(alignment_, *node->field, 0, node->points, T_map_body, true)};
+  local = {true, T_map_body, EvaluateAlignmentExactly(alignment_, *node->field, node->points, T_map_body)};
   return local.term;
 }
 
@@ -108,7 +99,7 @@ SlidingWindow::Summary SlidingWindow::Solve() {
   }
   // Once per keyframe is enough: later moves of a node are far smaller than what would change its curvature.
   for (WindowNode& node : nodes_) {
-    if (node.alignment.cost == 0) node.alignment = Align(&node);
+    if (node.alignment.cost == 0) node.alignment = AlignNear(node.state.T_map_body, &node);
   }
   return result;
 }

@@ -63,7 +63,6 @@ class SlidingWindow {
   ImuTerm Term(const WindowNode& node) const;
   /// Prior on nodes_[n + 1] from everything up to nodes_[n], given the prior on nodes_[n].
   StatePrior Eliminate(const StatePrior& prior, const AlignmentTerm& alignment, std::size_t n) const;
-  AlignmentTerm Align(WindowNode* node) const;
   /// The node's alignment term for the solver, with the node at this pose.
   AlignmentTerm AlignNear(const SE3& T_map_body, WindowNode* node) const;
   ChainModel ModelAt(const std::vector<BodyState>& states, const std::vector<ImuTerm>& imu);
