@@ -18,7 +18,8 @@ Camera TestCamera() {
   return camera;
 }
 
-// An edge of 30 cm, 3 m ahead of a camera that moves by half a metre sideways, with a fifth of a pixel of noise.
+// An edge of 30 cm, 3 m ahead of a camera that moves by half a metre sideways, with a fifth of a pixel of
+// noise.
 class EdgeAdjustmentTest : public testing::Test {
  protected:
   // The edge is upright, or its upper end slants away.
@@ -38,8 +39,8 @@ class EdgeAdjustmentTest : public testing::Test {
         const Eigen::Vector2d tangent = pinhole.Jacobian(p) * along;
         EdgePixel edge;
         edge.pixel = pinhole.Pixel(p).cast<float>() + Eigen::Vector2f(off, 0);
-        edge.normal = Eigen::Rotation2Df(angle) *
-                      Eigen::Vector2d(-tangent.y(), tangent.x()).normalized().cast<float>();
+        edge.normal =
+            Eigen::Rotation2Df(angle) * Eigen::Vector2d(-tangent.y(), tangent.x()).normalized().cast<float>();
         edges.push_back(edge);
       }
       views_.push_back({pose, camera, EdgeImage(camera.width, camera.height, std::move(edges), true)});
