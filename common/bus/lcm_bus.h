@@ -14,9 +14,4 @@ namespace evit {
 /// multicast route).
 std::unique_ptr<Bus> OpenLcmBus(const std::string& url);
 
-/// The same for a process whose handlers are short: its own thread reads the socket, between handlers, so
-/// that a message costs neither a thread of LCM's nor a copy. What arrives during one handler waits in the
-/// kernel's receive buffer; where that is below 2 MiB, and over TCP, this is OpenLcmBus().
-std::unique_ptr<Bus> OpenDirectLcmBus(const std::string& url);
-
 }  // namespace evit

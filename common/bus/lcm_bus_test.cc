@@ -5,7 +5,6 @@
 #include <sys/resource.h>
 
 #include <chrono>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -25,17 +24,8 @@ void PollUntil(Bus* bus, const Done& done) {
   while (!done() && std::chrono::steady_clock::now() < end) bus->Poll(10);
 }
 
-// Both ways to receive: by LCM's thread, and by the thread that polls.
-class EitherBus : public ::testing::TestWithParam<std::unique_ptr<Bus> (*)(const std::string&)> {};
-// With too small a receive buffer the second is the first.
-std::unique_ptr<Bus> OpenWithSmallBuffer(const std::string& url) {
-  return OpenDirectLcmBus(url + "&recv_buf_size=212992");
-}
-INSTANTIATE_TEST_SUITE_P(LcmBus, EitherBus,
-                         ::testing::Values(&OpenLcmBus, &OpenDirectLcmBus, &OpenWithSmallBuffer));
-
-TEST_P(EitherBus, DeliversExactlyThisChannel) {
-  const auto bus = GetParam()(kUrl);
+TEST(LcmBus, DeliversExactlyThisChannel) {
+  const auto bus = OpenLcmBus(kUrl);
   const auto sender = OpenLcmBus(kUrl);
   std::vector<std::string> heard;
   const auto handler = [&](const std::string& channel, const std::uint8_t* data, std::size_t size) {
@@ -50,8 +40,8 @@ TEST_P(EitherBus, DeliversExactlyThisChannel) {
   EXPECT_EQ(heard, (std::vector<std::string>{"a.b/C-1*:x", "END:x"}));
 }
 
-TEST_P(EitherBus, OnePollHandsOutAllThatIsThere) {
-  const auto bus = GetParam()(kUrl);
+TEST(LcmBus, OnePollHandsOutAllThatIsThere) {
+  const auto bus = OpenLcmBus(kUrl);
   const auto sender = OpenLcmBus(kUrl);
   std::vector<int> heard;
   bus->Subscribe(
@@ -101,43 +91,6 @@ TEST(LcmBus, WhatWaitsIsBoundedAndDropsAreCounted) {
   EXPECT_LE(heard + bus->queue_drops(), sent);
 }
 
-// Handlers that send faster than they take: what they send is taken from the kernel after each.
-TEST(DirectLcmBus, WhatWaitsIsBoundedAndDropsAreCounted) {
-  const auto bus = OpenDirectLcmBus(kUrl);
-  const std::vector<std::uint8_t> message(60'000);
-  const int n = 400, most = (16 << 20) / 60'000;
-  int sent = 0, heard = 0;
-  const auto send = [&](int many) {
-    for (int i = 0; i < many && sent < n; ++i, ++sent) bus->Publish("A", message.data(), message.size());
-  };
-  bus->Subscribe("A", [&](const std::string&, const std::uint8_t*, std::size_t) {
-    ++heard;
-    send(30);
-  });
-  send(30);
-  PollUntil(bus.get(), [&] { return sent == n && bus->Poll(100) == 0; });
-  EXPECT_GT(bus->queue_drops(), 0);
-  EXPECT_GE(heard, most);
-  EXPECT_LE(heard + bus->queue_drops(), sent);
-}
-
-TEST(DirectLcmBus, TwoSubscriptionsOfAChannelBothHear) {
-  const auto bus = OpenDirectLcmBus(kUrl);
-  const std::string large(100'000, 'x');
-  std::vector<std::string> first, second;
-  bus->Subscribe("A", [&](const std::string&, const std::uint8_t* data, std::size_t size) {
-    first.emplace_back(data, data + size);
-  });
-  bus->Subscribe("A", [&](const std::string&, const std::uint8_t* data, std::size_t size) {
-    second.emplace_back(data, data + size);
-  });
-  bus->Publish("A", large.data(), large.size());
-  bus->Publish("A", "small", 5);
-  PollUntil(bus.get(), [&] { return second.size() == 2; });
-  EXPECT_EQ(first, (std::vector<std::string>{large, "small"}));
-  EXPECT_EQ(second, first);
-}
-
 TEST(LcmBus, SaysWhatBufferTheKernelGranted) {
   EXPECT_EQ(OpenLcmBus("udpm://?ttl=0&recv_buf_size=65536")->granted_receive_buffer(), 65536);
   ::testing::internal::CaptureStderr();
@@ -146,7 +99,6 @@ TEST(LcmBus, SaysWhatBufferTheKernelGranted) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(greedy->granted_receive_buffer(), ProbeReceiveBuffer(1'000'000'000));
   EXPECT_EQ(OpenLcmBus(kUrl)->granted_receive_buffer(), ProbeReceiveBuffer(4 << 20));
-  EXPECT_EQ(OpenDirectLcmBus(kUrl)->granted_receive_buffer(), ProbeReceiveBuffer(4 << 20));
 }
 
 TEST(LcmBus, WhatCannotBeSentIsCounted) {
@@ -160,8 +112,8 @@ TEST(LcmBus, WhatCannotBeSentIsCounted) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-TEST_P(EitherBus, ALargeMessageArrivesWhole) {
-  const auto bus = GetParam()(kUrl);
+TEST(LcmBus, ALargeMessageArrivesWhole) {
+  const auto bus = OpenLcmBus(kUrl);
   std::vector<std::uint8_t> message(std::size_t{640} * 480), heard;
   for (std::size_t i = 0; i < message.size(); ++i) message[i] = static_cast<std::uint8_t>(i * 7 + i / 256);
   bus->Subscribe("KEYFRAME", [&](const std::string&, const std::uint8_t* data, std::size_t size) {
@@ -175,8 +127,8 @@ TEST_P(EitherBus, ALargeMessageArrivesWhole) {
   EXPECT_EQ(heard, message);
 }
 
-TEST_P(EitherBus, WaitingCostsNoTimeOfTheProcessor) {
-  const auto bus = GetParam()(kUrl);
+TEST(LcmBus, WaitingCostsNoTimeOfTheProcessor) {
+  const auto bus = OpenLcmBus(kUrl);
   bus->Subscribe("A", [](const std::string&, const std::uint8_t*, std::size_t) {});
   struct rusage before = {}, after = {};
   getrusage(RUSAGE_SELF, &before);
@@ -189,8 +141,8 @@ TEST_P(EitherBus, WaitingCostsNoTimeOfTheProcessor) {
 }
 
 // Linux hands all groups of a port to every socket of it; another group would mix with ours.
-TEST_P(EitherBus, AnotherGroupOnTheSamePortIsNotHeard) {
-  const auto bus = GetParam()("udpm://239.255.76.68:7667?ttl=0");
+TEST(LcmBus, AnotherGroupOnTheSamePortIsNotHeard) {
+  const auto bus = OpenLcmBus("udpm://239.255.76.68:7667?ttl=0");
   const auto other = OpenLcmBus("udpm://239.255.76.69:7667?ttl=0");
   const auto own = OpenLcmBus("udpm://239.255.76.68:7667?ttl=0");
   std::vector<std::string> heard;
@@ -218,7 +170,6 @@ TEST(LcmBus, WhatReachesNoOtherProcessIsRefused) {
 TEST(LcmBus, ABadUrlIsAnError) {
   EXPECT_THROW(OpenLcmBus("nonsense://"), std::runtime_error);
   EXPECT_THROW(OpenLcmBus("udpm://10.0.0.1:7667"), std::runtime_error);
-  EXPECT_THROW(OpenDirectLcmBus("nonsense://"), std::runtime_error);
 }
 
 }  // namespace

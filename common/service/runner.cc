@@ -49,7 +49,7 @@ std::string ResolveLcmUrl(const std::string& option) {
 
 std::unique_ptr<Bus> OpenServiceBus(const ServiceOptions& options) {
   StatusReporter::EchoToStderr();
-  auto bus = OpenDirectLcmBus(ResolveLcmUrl(options.lcm_url));
+  auto bus = OpenLcmBus(ResolveLcmUrl(options.lcm_url));
   const char* const faults = std::getenv("EVIT_BUS_FAULTS");
   if (faults == nullptr || *faults == '\0') return bus;
   return MakeFaultyBus(std::move(bus), ParseBusFaults(faults));
