@@ -326,7 +326,7 @@ TEST_F(WholeSystemTest, APictureThatCannotBeWrittenCostsNoResult) {
   fs::create_directories(Path("out/trajectory.png/in_use"));  // a folder, which no picture can replace
   const Result result = Shell(RunCommand("out"));
   EXPECT_EQ(result.code, 1) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("trajectory.png: is no file that can be replaced"));
+  EXPECT_THAT(result.output, HasSubstr("trajectory.png: is not a file that can be replaced"));
   ExpectGood(Path("out/trajectory.tum"), 0.02, 0.8);
   EXPECT_TRUE(fs::exists(Path("out/report.json")));
   EXPECT_TRUE(fs::exists(Path("out/consistency.png")));

@@ -86,7 +86,7 @@ StagedFile::~StagedFile() {
 void StagedFile::Commit() {
   std::error_code error;
   if (fs::exists(final_, error) && !fs::is_regular_file(final_, error))
-    throw std::runtime_error(path_ + ": is no file that can be replaced; give another name");
+    throw std::runtime_error(path_ + ": is not a file that can be replaced; give another name");
   fs::rename(part_, final_, error);
   if (error)
     throw std::runtime_error(path_ +

@@ -11,7 +11,7 @@ namespace evit {
 namespace {
 
 constexpr std::size_t kFewest = 10;
-constexpr Utime kShortest = 100'000;   // us
+constexpr Utime kShortest = 80'000;    // us
 constexpr Utime kBin = 25'000;         // us: of forces that are averaged
 constexpr double kImplausible = 0.35;  // of gravity: a mean that differs by more, beyond its error, is none
 constexpr double kLeastSigma = 0.5 / 57;  // rad: accelerometer bias and misalignment

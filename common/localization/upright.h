@@ -21,7 +21,7 @@ struct Upright {
 /// to and fro the error is half that of a mean, of a slow one the same.
 ///
 /// `sigma` is what this says of the error; on real and simulated hand-held motions the errors agree with it.
-/// Not known: fewer than ten samples, less than 0.1 s, or a mean that is not gravity (a fall, a wrong unit).
+/// Not known: fewer than ten samples, less than 0.08 s, or a mean that is not gravity (a fall, a wrong unit).
 Upright EstimateUpright(const std::vector<ImuSample>& samples, double gravity);
 
 }  // namespace evit

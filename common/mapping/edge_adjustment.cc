@@ -63,7 +63,7 @@ double Independent(double seen) { return seen / std::max(1.0, std::min(10.0, see
 // tell how it slants, which its neighbours' depths tell badly where it is short and far. With a wrong slant,
 // what a point's depth is off would seem to be along its line, and of no account. `information`: about the
 // point's position, of the views (m^-2).
-void TurnIntoPlanes(const Eigen::Matrix3d& information, double independent,
+void AlignWithViews(const Eigen::Matrix3d& information, double independent,
                     const EdgeAdjustmentOptions& options, Eigen::Vector3d* direction) {
   const double trace = information.trace();
   if (!(trace > 0)) return;
@@ -224,7 +224,7 @@ AdjustmentSummary EdgeAdjustment::Run(std::vector<MappedPoint>* points) {
       const double strict = last ? 1 : 0.6;
       if (total.seen < strict * options_.min_views / search.every || point.seen < strict * options_.min_share)
         continue;
-      TurnIntoPlanes(total.information, Independent(total.seen), options_, &point.direction);
+      AlignWithViews(total.information, Independent(total.seen), options_, &point.direction);
       // Of the lag nothing but its prior is known where there are no event views, and nothing changes.
       total.lag_information += 1 / (options_.lag_sigma_px * options_.lag_sigma_px);
       total.lag_gradient += point.lag / (options_.lag_sigma_px * options_.lag_sigma_px);

@@ -31,8 +31,8 @@ void CreditSender::Consumed(std::int64_t stream_epoch, std::int64_t next_events_
 }
 
 std::int64_t CreditSender::BytesPerCredit() const {
-  // The sender's window is a quarter of the receive buffer. If that is small, so much is never under way, and
-  // the stream would have to wait 50 ms for each credit.
+  // The sender's window is a quarter of the receive buffer. If that is small, so many bytes are never in
+  // flight, and the stream would have to wait 50 ms for each credit.
   const std::int64_t buffer = bus_->granted_receive_buffer();
   return buffer > 0 ? std::clamp<std::int64_t>(buffer / 16, 4096, kBytes) : kBytes;
 }

@@ -38,14 +38,17 @@ AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const Surface
 }
 
 AlignmentTerm EvaluateAlignmentExactly(const AlignmentSettings& settings, const SurfaceField& field,
-                                       const AlignmentPoints& points, const SE3& T_map_body) {
+                                       const AlignmentPoints& points, const SE3& T_map_body, Matrix6d* bend) {
   AlignmentSums sums;
   SumAlignment(BatchAlignment(settings, field, 0, points, T_map_body), points.local(), AlignmentPart::kExact,
                &sums);
   AlignmentTerm term = TermOf(sums, T_map_body);
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(term.hessian);
-  term.hessian = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).asDiagonal() *
-                 solver.eigenvectors().transpose();
+  const auto with = [&solver](const Vector6d& eigenvalues) -> Matrix6d {
+    return solver.eigenvectors() * eigenvalues.asDiagonal() * solver.eigenvectors().transpose();
+  };
+  term.hessian = with(solver.eigenvalues().cwiseMax(0));
+  if (bend != nullptr) *bend = with(solver.eigenvalues().cwiseAbs());
   return term;
 }
 

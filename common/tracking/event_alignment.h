@@ -57,8 +57,12 @@ AlignmentTerm EvaluateAlignment(const AlignmentSettings& settings, const Surface
 /// gives every point such a curvature somewhere, and the sum claims to know a pose of which the events say
 /// little: steps along what they say least of are a fifth as long as they should be, and stop halfway. Here
 /// the noise of many points cancels, and the valley that they share is left.
+///
+/// `bend`: where not null, gets the same curvature with all its eigenvalues made positive: how much the cost
+/// bends either way, over a ridge as in a valley.
 AlignmentTerm EvaluateAlignmentExactly(const AlignmentSettings& settings, const SurfaceField& field,
-                                       const AlignmentPoints& points, const SE3& T_map_body);
+                                       const AlignmentPoints& points, const SE3& T_map_body,
+                                       Matrix6d* bend = nullptr);
 
 /// How well projected points sit on a surface's edges, against the same points shifted by some pixels: a
 /// figure that needs no threshold on the scene's texture.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "common/tracking/alignment_information.h"
 #include "common/tracking/alignment_significance.h"
+#include "common/tracking/event_alignment.h"
 #include "common/tracking/gates.h"
 #include "common/tracking/image_speed.h"
 #include "common/tracking/localizer.h"
@@ -79,7 +79,7 @@ TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
   const double significance = AlignmentSignificance(alignment_, field, points, fit.T_map_body);
   if (LiesOnEvents(fit.quality, options_.failure.min_contrast, significance, kFollowSignificance)) {
     Accept(keyframe, seconds, fit.T_map_body);
-    const Matrix6d alignment = AlignmentInformation(alignment_, field, points, fit.T_map_body);
+    const Matrix6d alignment = EvaluateAlignmentExactly(alignment_, field, points, fit.T_map_body).hessian;
     out.information.topLeftCorner<6, 6>() = alignment;
     out.information.bottomRightCorner<9, 9>().setIdentity();
     uncertainty_.SetAlignment(alignment, MeasureMisfit(alignment_, field, points, fit.T_map_body));

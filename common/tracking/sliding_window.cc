@@ -36,15 +36,18 @@ AlignmentTerm SlidingWindow::AlignNear(const SE3& T_map_body, WindowNode* node) 
   if (local.known) {
     Vector6d d;
     d << T_map_body.p - local.T_map_body.p, LogSO3(local.T_map_body.q.conjugate() * T_map_body.q);
-    const Vector6d bent = local.term.hessian * d;
-    if (d.dot(bent) <= kSame * kSame * static_cast<double>(node->points.size())) {
+    // By its bend: along a ridge the Hessian is zero, and the quadratic function would hold at any distance.
+    if (d.dot(local.bend * d) <= kSame * kSame * static_cast<double>(node->points.size())) {
+      const Vector6d bent = local.term.hessian * d;
       AlignmentTerm term = local.term;
       term.cost += d.dot(term.gradient + 0.5 * bent);
       term.gradient += bent;
       return term;
     }
   }
-  local = {true, T_map_body, EvaluateAlignmentExactly(alignment_, *node->field, node->points, T_map_body)};
+  local.known = true;
+  local.T_map_body = T_map_body;
+  local.term = EvaluateAlignmentExactly(alignment_, *node->field, node->points, T_map_body, &local.bend);
   return local.term;
 }
 

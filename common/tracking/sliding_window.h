@@ -15,6 +15,7 @@ struct LocalAlignment {
   bool known = false;
   SE3 T_map_body;
   AlignmentTerm term;
+  Matrix6d bend = Matrix6d::Zero();  // see EvaluateAlignmentExactly()
 };
 
 /// One keyframe in the window.

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/tracking/alignment_information.h"
 #include "common/tracking/alignment_significance.h"
+#include "common/tracking/event_alignment.h"
 #include "common/tracking/place_search.h"
 
 namespace evit {
@@ -51,7 +51,7 @@ std::vector<SE3> PosesAlongWeakWays(const AlignmentSettings& settings, const Sur
                                     double farthest) {
   Vector6d scale;
   scale << Eigen::Vector3d::Constant(range.position), Eigen::Vector3d::Constant(range.rotation);
-  const Matrix6d information = AlignmentInformation(settings, field, points, centre);
+  const Matrix6d information = EvaluateAlignmentExactly(settings, field, points, centre).hessian;
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(scale.asDiagonal() * information * scale.asDiagonal());
   const auto steps = static_cast<int>(farthest * kWeakSteps);
   std::vector<SE3> best;

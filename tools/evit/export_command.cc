@@ -39,7 +39,7 @@ void AddExportLog(CLI::App* app, const char* name, const char* text, formats::Ex
   command->callback([o] {
     if (!o->size.empty()) ParseSize(o->size, &o->job.width, &o->job.height);
     if (o->job.format != formats::ExportFormat::kRpg) RequireOutput("--out", o->job.out);
-    RequireNoInput("--out", o->job.out, {o->job.log});
+    RequireNotAnInput("--out", o->job.out, {o->job.log});
     formats::ExportSummary s;
     {
       terminal::ProgressBar bar("exporting " + o->job.log);
@@ -78,7 +78,7 @@ void AddExportResults(CLI::App* app) {
     const bool folder = std::filesystem::is_directory(o->from);
     const std::string from = folder ? o->from + "/trajectory.tum" : o->from;
     RequireOutput("--out", o->out);
-    RequireNoInput("--out", o->out, {from, o->camera_of});
+    RequireNotAnInput("--out", o->out, {from, o->camera_of});
     Trajectory trajectory = ReadTrajectory(from);
     if (!o->camera_of.empty()) trajectory = formats::CameraTrajectory(trajectory, LoadRig(o->camera_of));
     formats::WriteTrajectory(o->out, kFormats.at(o->format), trajectory);

@@ -76,7 +76,7 @@ void Feed(const FeedCommand& o) {
     bus = OpenLcmBus(ResolveLcmUrl(o.lcm_url));
   } else {
     RequireLogOutput("--out", o.out);
-    RequireNoInput("--out", o.out, {o.from});
+    RequireNotAnInput("--out", o.out, {o.from});
     file.emplace(o.out);
     log = std::make_unique<LogWriter>(file->part());
   }

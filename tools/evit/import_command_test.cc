@@ -153,7 +153,7 @@ TEST_F(ImportCommandTest, NoInputIsOverwritten) {
   EXPECT_THAT(Import(events + " --out " + link, 1), HasSubstr(link + ": is " + events));
   EXPECT_THAT(Import(events + " --imu " + imu + " --out " + imu, 1), HasSubstr("which would be lost"));
   EXPECT_THAT(Import(events + " --truth " + truth + " --out " + log_, 1), HasSubstr("which would be lost"));
-  EXPECT_THAT(Import(events + " --out " + imu, 1), HasSubstr("exists and is no log"));
+  EXPECT_THAT(Import(events + " --out " + imu, 1), HasSubstr("exists and is not a log"));
   EXPECT_EQ(size(), before);
   Import(events + " --out " + log_, 0);
   Import(events + " --out " + log_, 0);  // a log may be made again
@@ -163,6 +163,8 @@ TEST_F(ImportCommandTest, NoInputIsOverwritten) {
 TEST_F(ImportCommandTest, OptionsWithoutEffectAreRefused) {
   const std::string events = folder_.File("events.txt");
   std::ofstream(events) << "0.001 1 2 1\n0.002 3 4 0\n";
+  EXPECT_THAT(Import(events + " --truth none --truth-topic /pose --out " + log_, 1),
+              HasSubstr("nothing is taken; leave the option out"));
   EXPECT_THAT(Import(events + " --imu-offset 0.1 --out " + log_, 1), HasSubstr("there is no IMU"));
   EXPECT_THAT(Import(events + " --imu-topic /imu --out " + log_, 1), HasSubstr("has no topics"));
   EXPECT_THAT(Import(events + " --events-topic left --out " + log_, 1), HasSubstr("leave the option out"));

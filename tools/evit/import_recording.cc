@@ -72,11 +72,11 @@ void RequireOthersThanInputs(const RecordingOptions& o) {
   std::vector<std::string> inputs = o.job.paths;
   inputs.insert(inputs.end(), {o.job.imu, o.job.truth, o.rig});
   inputs.insert(inputs.end(), o.calibration.begin(), o.calibration.end());
-  RequireNoInput("--out", o.shared.out, inputs);
-  RequireNoInput("--out", o.shared.out + ".truth.tum", inputs);
+  RequireNotAnInput("--out", o.shared.out, inputs);
+  RequireNotAnInput("--out", o.shared.out + ".truth.tum", inputs);
   if (o.rig_out.empty()) return;
   RequireOutput("--rig-out", o.rig_out);
-  RequireNoInput("--rig-out", o.rig_out, inputs);
+  RequireNotAnInput("--rig-out", o.rig_out, inputs);
 }
 
 void ImportAny(RecordingOptions* o) {

@@ -165,13 +165,14 @@ void AddLocateCommand(CLI::App* app) {
   auto* picture =
       locate->add_option("--picture", o->picture, "PNG to write: events and map, of the best candidates");
   auto* truth = locate->add_option("--truth", o->truth, "Truth (TUM) to compare with");
-  locate
-      ->add_option("--starts", o->starts, "Begin so many times, evenly over the log, and count what is right")
-      ->check(CLI::Range(1, 100'000))
-      ->needs(truth)
-      ->excludes(at)
-      ->excludes(picture);
-  locate->add_flag("--trace", o->trace, "With --starts: how each went, search by search")->needs(truth);
+  auto* starts = locate
+                     ->add_option("--starts", o->starts,
+                                  "Begin so many times, evenly over the log, and count what is right")
+                     ->check(CLI::Range(1, 100'000))
+                     ->needs(truth)
+                     ->excludes(at)
+                     ->excludes(picture);
+  locate->add_flag("--trace", o->trace, "With --starts: how each went, search by search")->needs(starts);
   locate
       ->add_option(
           "--without", o->without,

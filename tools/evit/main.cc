@@ -67,7 +67,8 @@ int Main(int argc, char** argv) {
 
 // What a command printed may be its whole result. A reader that went away (| head) had enough.
 int Flushed(int code) {
-  if (std::fflush(stdout) == 0 || errno == EPIPE || code != 0) return code;
+  const bool whole = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;  // also of what went out before
+  if (whole || errno == EPIPE || code != 0) return code;
   std::perror("evit: error: standard output");
   return 1;
 }

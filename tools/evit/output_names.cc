@@ -45,11 +45,11 @@ void RequireLogOutput(const std::string& option, const std::string& path) {
   if (fs::exists(path, error) && !IsLogOrEmpty(path))
     throw std::runtime_error(
         option + " " + path +
-        ": exists and is no log, and would be lost; give another name, or remove it first");
+        ": exists and is not a log, and would be lost; give another name, or remove it first");
 }
 
-void RequireNoInput(const std::string& option, const std::string& path,
-                    const std::vector<std::string>& inputs) {
+void RequireNotAnInput(const std::string& option, const std::string& path,
+                       const std::vector<std::string>& inputs) {
   const auto same = [&](const std::string& input) {
     std::error_code error;
     return !input.empty() && fs::equivalent(path, input, error) && !error;

@@ -13,7 +13,7 @@ void RequireOutput(const std::string& option, const std::string& path);
 void RequireLogOutput(const std::string& option, const std::string& path);
 
 /// `path` is none of the files that are read. Empty names are passed over.
-void RequireNoInput(const std::string& option, const std::string& path,
-                    const std::vector<std::string>& inputs);
+void RequireNotAnInput(const std::string& option, const std::string& path,
+                       const std::vector<std::string>& inputs);
 
 }  // namespace evit::commands

@@ -120,7 +120,7 @@ cv::Mat DecodeGrey(const StoredPicture& picture, const std::string& name, const 
   }
   if (levels.depth() == CV_8U) return levels;
   cv::Mat bytes;
-  levels.convertTo(bytes, CV_8U, 255 / (style.white > 255 ? style.white : WhiteOf(levels)));
+  levels.convertTo(bytes, CV_8U, 255 / std::max(style.white > 255 ? style.white : 0, WhiteOf(levels)));
   return bytes;
 }
 

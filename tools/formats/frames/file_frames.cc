@@ -17,7 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLeastDigits = 10;  // of a stamp in a name: 000, 001, ... only count
-constexpr Utime kLeastStep = 5;           // from name to name, of whatever unit; less counts pictures
+constexpr Utime kEpochSeconds =
+    1'000'000'000;               // no count of pictures gets there; seconds since 1970 did in 2001
+constexpr Utime kLeastStep = 5;  // from name to name, of whatever unit; less counts pictures
 
 std::string FolderOf(const std::string& name) { return fs::path(name).parent_path().generic_string(); }
 
@@ -44,7 +46,7 @@ std::vector<std::string> StampsInNames(const std::vector<std::string>& files) {
     if (stamps.back().empty()) return std::vector<std::string>(files.size());
     Utime t = 0;
     counts = counts && stamps.back().find('.') == std::string::npos &&
-             ParseDecimalTime(stamps.back(), TimeUnit::kMicroseconds, &t) &&
+             ParseDecimalTime(stamps.back(), TimeUnit::kMicroseconds, &t) && t < kEpochSeconds &&
              (stamps.size() == 1 || t - last < kLeastStep);
     last = t;
   }

@@ -66,6 +66,9 @@ TEST_F(FrameSourceTest, PicturesComeInNaturalOrderWithTheStampsOfTheirNames) {
   Write("c/1600000000100000000.PNG", Png(3));
   EXPECT_THAT(Stamps(*OpenFrames(Path("b"), {})), ElementsAre("1600000000.100000", "1600000000.200000"));
   EXPECT_THAT(Stamps(*OpenFrames(Path("c"), {})), ElementsAre("1600000000100000000"));
+  Write("d/1600000000.png", Png(1));  // whole seconds, no count
+  Write("d/1600000001.png", Png(2));
+  EXPECT_THAT(Stamps(*OpenFrames(Path("d"), {})), ElementsAre("1600000000", "1600000001"));
 }
 
 // As an archive unpacks, EuRoC and KITTI lay pictures out.

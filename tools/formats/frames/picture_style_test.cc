@@ -56,6 +56,9 @@ TEST_F(PictureStyleTest, AllPicturesOfACameraAreScaledAlike) {
   };
   EXPECT_NEAR(mean(bright, style) / mean(dark, style), 4095.0 / 900, 0.1);
   EXPECT_LT(mean(bright, {}) / mean(dark, {}), 1.3) << "by each picture alone";
+  const cv::Mat brighter = DecodeGrey(Png(Levels(8000)), "", style);
+  EXPECT_LT(cv::countNonZero(brighter == 255), brighter.total() / 10)
+      << "brighter than all that were sampled";
   EXPECT_EQ(StyleOf({Png(Levels(16000))}).white, 16383);
   EXPECT_EQ(StyleOf({Png(Levels(40000))}).white, 65535);
   EXPECT_EQ(cv::countNonZero(DecodeGrey(Png(grey_), "", StyleOf({Png(grey_)})) != grey_), 0);

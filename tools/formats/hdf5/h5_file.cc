@@ -58,7 +58,7 @@ std::string OneText(const H5Handle& type, const H5Handle& space, const ReadAs& r
 }
 
 // MATLAB stores columns first: its N x 4 is 4 x N here, and its N x 1 is 1 x N.
-bool LiesAcross(const std::vector<hsize_t>& shape) {
+bool IsTransposed(const std::vector<hsize_t>& shape) {
   constexpr hsize_t kWidest = 16, kTelling = 32;  // columns; rows: fewer may be the other way round
   return shape.size() == 2 && shape[0] <= kWidest && shape[1] >= kTelling && shape[1] >= 8 * shape[0];
 }
@@ -214,7 +214,7 @@ H5Rows H5File::Open(const std::string& requested) const {
   const int rank = std::max(0, H5Sget_simple_extent_ndims(space.get()));
   rows->shape.resize(static_cast<std::size_t>(std::max(1, rank)), 1);
   if (rank > 0) H5Sget_simple_extent_dims(space.get(), rows->shape.data(), nullptr);
-  rows->along = LiesAcross(rows->shape) ? 1 : 0;
+  rows->along = IsTransposed(rows->shape) ? 1 : 0;
   for (std::size_t k = 0; k < rows->shape.size(); ++k) {
     if (k == rows->along) continue;
     rows->columns *= std::min<std::size_t>(rows->shape[k], kMaxColumns + 1);

@@ -45,7 +45,7 @@ void CheckRate(const std::string& name, std::int64_t n, Utime span) {
 }
 
 // Stamps that were rounded away, as those since 1970 in 32-bit floats.
-void RequireTime(const std::string& name, std::int64_t n, std::int64_t n_stamps) {
+void RequireDistinctStamps(const std::string& name, std::int64_t n, std::int64_t n_stamps) {
   constexpr std::int64_t kFew = 1000, kStamps = 10;
   if (n < kFew || n_stamps > kStamps) return;
   throw std::runtime_error(
@@ -121,19 +121,17 @@ void CheckUnits(const ImportTarget& target, ImportStreams* streams) {
                            "; --accel-unit and --gyro-unit convert, --any-imu takes it as it is");
 }
 
-// Truth of an earlier import must not stay beside a log that has none.
+// Truth of an earlier import must not stay beside a log that has none, and goes only once the new log is in
+// place.
 void PutInPlace(StagedFile* log, const std::string& out, const Trajectory& truth) {
   const std::string truth_out = out + ".truth.tum";
+  StagedFile staged(truth_out);
+  if (!truth.empty()) WriteTum(staged.part(), truth);
+  log->Commit();
   if (truth.empty()) {
     std::remove(truth_out.c_str());
   } else {
-    WriteTum(truth_out, truth);
-  }
-  try {
-    log->Commit();
-  } catch (const std::runtime_error&) {
-    std::remove(truth_out.c_str());
-    throw;
+    staged.Commit();
   }
 }
 
@@ -199,7 +197,7 @@ ImportSummary ImportLog(const ImportTarget& target, EventSource* source, ImportS
                               : events->share());
     }
     RequireMostKept(events->name(), events->dropped(), n_read, "events");
-    RequireTime(name, n_read, n_stamps);
+    RequireDistinctStamps(name, n_read, n_stamps);
     if (summary.n_events == 0) throw std::runtime_error("the part asked for by --seconds holds no events");
     if (has_imu && streams.imu.front().t > last) {
       throw std::runtime_error(streams.imu_name + ": begins after the last event" +

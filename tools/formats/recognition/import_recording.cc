@@ -68,11 +68,16 @@ Utime FindOffset(Recording* recording, const RecordingInfo& info, const ImportSt
 
 // Elsewhere a choice would not be looked at.
 void RequireChoicesUsed(const RecordingImport& job) {
-  for (const auto& [choice, file, option] : {std::tuple(job.choice.imu, job.imu, "--imu-topic"),
-                                             std::tuple(job.choice.truth, job.truth, "--truth-topic")}) {
-    const bool other = !file.empty() && file != kNone;
-    if (choice.empty() || HasTopics(other ? file : job.paths.front())) continue;
-    throw std::runtime_error(std::string(option) + " " + choice + ": " + (other ? file : job.paths.front()) +
+  for (const auto& [choice, file, option, has_topics] :
+       {std::tuple(job.choice.imu, job.imu, "--imu-topic", &HasImuTopics),
+        std::tuple(job.choice.truth, job.truth, "--truth-topic", &HasTruthTopics)}) {
+    if (choice.empty()) continue;
+    if (file == kNone)
+      throw std::runtime_error(std::string(option) + " " + choice +
+                               ": nothing is taken; leave the option out");
+    const std::string& source = file.empty() ? job.paths.front() : file;
+    if (has_topics(source)) continue;
+    throw std::runtime_error(std::string(option) + " " + choice + ": " + source +
                              " has no topics to choose from; leave the option out");
   }
 }

@@ -97,11 +97,15 @@ bool IsRecording(const std::string& path) {
           NpyRecording::Recognises(path));
 }
 
-bool HasTopics(const std::string& path) {
+bool HasTruthTopics(const std::string& path) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file or folder");
   return OpenRos2Bags({path}) != nullptr ||
-         (std::filesystem::is_regular_file(path) &&
-          (RosbagStore::Recognises(path) || Aedat4Recording::Recognises(path)));
+         (std::filesystem::is_regular_file(path) && RosbagStore::Recognises(path));
+}
+
+bool HasImuTopics(const std::string& path) {
+  return HasTruthTopics(path) ||
+         (std::filesystem::is_regular_file(path) && Aedat4Recording::Recognises(path));
 }
 
 void MeasureSize(Recording* recording, int* width, int* height) {

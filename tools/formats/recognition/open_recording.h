@@ -22,8 +22,10 @@ std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths,
 /// Whether a file or folder is a recording that OpenRecording would recognise as binary, by itself.
 bool IsRecording(const std::string& path);
 
-/// Whether StreamChoice chooses an IMU or truth in it: bags, AEDAT 4.
-bool HasTopics(const std::string& path);
+/// Whether StreamChoice chooses truth in it: bags.
+bool HasTruthTopics(const std::string& path);
+/// Whether it chooses an IMU in it: bags, AEDAT 4.
+bool HasImuTopics(const std::string& path);
 
 /// The size of a sensor that its recording does not name: the smallest known one that holds all its events.
 /// Reads them all.

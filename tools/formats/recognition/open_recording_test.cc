@@ -102,7 +102,8 @@ TEST(OpenRecording, AChoiceWhereThereIsNoneIsRefused) {
   choice.events = "left";
   EXPECT_THAT([&] { OpenRecording({path}, choice); },
               ThrowsMessage<std::runtime_error>(HasSubstr("--events-topic left")));
-  EXPECT_FALSE(HasTopics(path));
+  EXPECT_FALSE(HasImuTopics(path));
+  EXPECT_FALSE(HasTruthTopics(path));
 }
 
 }  // namespace
