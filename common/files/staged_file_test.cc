@@ -58,7 +58,7 @@ TEST_F(StagedFileTest, APipeIsNotReplaced) {
   StagedFile file(Path("pipe"));
   Write(file.part(), "new");
   EXPECT_THAT([&] { file.Commit(); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("no file that can be replaced")));
+              ThrowsMessage<std::runtime_error>(HasSubstr("not a file that can be replaced")));
   EXPECT_TRUE(fs::is_fifo(folder_ / "pipe"));
 }
 

@@ -76,6 +76,7 @@ TEST_P(RobustKernelTest, EveryAlignmentIsTheReferences) {
       // Turned so far that some points leave the image.
       const SE3 pose = frame.T_map_room * SE3(ExpSO3({0.04, -0.03, 0.15}), {0.006, -0.008, 0.004});
       std::vector<Eigen::Vector3d> exact;
+      exact.reserve(points.size() + 1);
       for (const auto& p : points) exact.push_back(p.cast<double>());
       exact.push_back(frame.T_map_room * Eigen::Vector3d(-2, 0.1, 0));  // behind the camera
       std::vector<Eigen::Vector3f> rounded = points;
