@@ -96,7 +96,7 @@ class WholeSystemTest : public ::testing::Test {
         Kill(service);
       }
     });
-    const Result result = Shell(command);
+    Result result = Shell(command);
     over = true;
     killer.join();
     return result;

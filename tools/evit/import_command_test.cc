@@ -96,7 +96,7 @@ TEST_F(ImportCommandTest, WhatIsNoRecordingIsNamedWithItsRemedy) {
       {"# .PCD v0.7\n", "is a map"},
       {" {\"value0\": 1}", "--calibration"},
       {text + text, "--imu"},
-      {std::string("12 34 56 78 1 2 3 4\n\0\1\2\3 5 6 7\n", 32), "cat PART"},
+      {std::string("12 34 56 78 1 2 3 4\n\0\1\2\3 5 6 7\n", 31), "cat PART"},
       {"1600000000.0 7 8 1 33\n1600000000.1 8 9 0 44\n", "sed '1i t x y p other' FILE"},
       {"0 12000 1600000000.0 7 8 1\n1 13000 1600000000.1 8 9 0\n", "is a table of 6 columns without names"}};
   for (const auto& [contents, remedy] : cases)

@@ -72,13 +72,13 @@ void RequireChoicesUsed(const RecordingImport& job) {
        {std::tuple(job.choice.imu, job.imu, "--imu-topic", &HasImuTopics),
         std::tuple(job.choice.truth, job.truth, "--truth-topic", &HasTruthTopics)}) {
     if (choice.empty()) continue;
-    if (file == kNone)
-      throw std::runtime_error(std::string(option) + " " + choice +
-                               ": nothing is taken; leave the option out");
     const std::string& source = file.empty() ? job.paths.front() : file;
-    if (has_topics(source)) continue;
-    throw std::runtime_error(std::string(option) + " " + choice + ": " + source +
-                             " has no topics to choose from; leave the option out");
+    if (file != kNone && has_topics(source)) continue;
+    std::string text = option;
+    text.append(" ").append(choice).append(": ");
+    if (file == kNone) throw std::runtime_error(text.append("nothing is taken; leave the option out"));
+    text.append(source).append(" has no topics to choose from; leave the option out");
+    throw std::runtime_error(text);
   }
 }
 

@@ -58,7 +58,8 @@ std::unique_ptr<MessageStore> OpenRos2Bags(const std::vector<std::string>& paths
     if (!bag) throw std::runtime_error(path + ": is not a ROS 2 bag, unlike " + paths.front());
     bags.push_back(std::move(bag));
   }
-  return bags.size() == 1 ? std::move(bags.front()) : std::make_unique<BagFolder>(std::move(bags));
+  if (bags.size() == 1) return std::move(bags.front());
+  return std::make_unique<BagFolder>(std::move(bags));
 }
 
 // Several bags are one recording: of several topics, or one after the other. Null where they are none.
@@ -99,8 +100,8 @@ bool IsRecording(const std::string& path) {
 
 bool HasTruthTopics(const std::string& path) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": there is no such file or folder");
-  return OpenRos2Bags({path}) != nullptr ||
-         (std::filesystem::is_regular_file(path) && RosbagStore::Recognises(path));
+  const std::unique_ptr<MessageStore> bags = OpenRos2Bags({path});
+  return bags != nullptr || (std::filesystem::is_regular_file(path) && RosbagStore::Recognises(path));
 }
 
 bool HasImuTopics(const std::string& path) {
