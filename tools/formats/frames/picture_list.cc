@@ -60,7 +60,7 @@ bool Ascends(const Table& table, std::size_t column) {
   return true;
 }
 
-// The stamps' column: time goes on, and by other steps than one. Nearest before the names, if there are such
+// The stamps' column: it increases, and by other steps than one. Nearest before the names, if there are such
 // columns (of two pairs in a row, colour and depth, each has its own stamp before it), else the first.
 std::optional<std::size_t> StampColumn(const Table& table, std::optional<std::size_t> names) {
   std::vector<std::size_t> order;
@@ -160,7 +160,7 @@ std::optional<std::vector<ListedPicture>> ReadPictureList(const PictureList& lis
   const auto stamp_column = StampColumn(table, name_column);
   const bool beside = list.folder == pictures.folder;
   if (!name_column) {
-    if (const auto found = ByStems(table, names, pictures.pictures.size())) return found;
+    if (auto found = ByStems(table, names, pictures.pictures.size())) return found;
   }
   if (!stamp_column) {
     if (!beside) return std::nullopt;
