@@ -25,8 +25,8 @@ struct EdgeSighting {
   bool Agrees() const;
 };
 
-/// Of the point at `p` in the camera frame, its edge looked for within `radius` pixels. Nothing where the view
-/// is not expected to show it: it points at the camera, or the motion does not carry it across pixels.
+/// Of the point at `p` in the camera frame, its edge looked for within `radius` pixels. Nothing where the
+/// view is not expected to show it: it points at the camera, or the motion does not carry it across pixels.
 std::optional<EdgeSighting> SightEdge(const PinholeView& pinhole, const PosedEdges& view,
                                       const MappedPoint& point, const Eigen::Vector3d& p, double radius);
 

@@ -1,22 +1,14 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "common/mapping/depth_fit.h"
+#include "common/mapping/depth_votes.h"
+#include "common/mapping/edge_stereo_options.h"
 #include "common/mapping/posed_edges.h"
 
 namespace evit {
-
-struct EdgeStereoOptions {
-  double min_depth_m = 0.2, max_depth_m = 10;
-  int min_views = 4;             // that agree on a depth
-  double min_share = 0.35;       // of the views that should show it: more is hidden than one knows
-  double max_rival_share = 0.6;  // another depth with as much of the best one's support makes it ambiguous
-  double edge_sigma_px = 0.35;   // of an edge's place in one image, poses' errors included
-  double normal_sigma = 0.03;    // rad, of an edge's direction in one image
-  double max_relative_sigma = 0.06;  // of the depth; more is not a measurement
-  double lag_sigma_px = 0.4;         // of an edge in event views, beside what is known of all
-  double side_tolerance = 0.5;       // log intensity: by which one side at least must look the same
-};
 
 /// A depth measured for an edge of a view.
 struct EdgeDepth {
@@ -31,10 +23,10 @@ struct EdgeDepth {
 /// Depth of the edges of one view from its neighbours, semi-dense multi-view stereo on edges.
 ///
 /// For each edge pixel all inverse depths are tried at once in all neighbours: each neighbour votes for those
-/// at which it has an edge of this direction on the epipolar line (EdgeImage::Vote). The highest peaks are
-/// then made exact by least squares on the distances to the neighbours' edges, across these. An edge counts
-/// only where one of its sides is about as bright as in the first view. What stays ambiguous, has too few
-/// witnesses or runs along the epipolar lines is left out.
+/// at which it has an edge of this direction on the epipolar line (DepthVotes). The highest peaks are
+/// then made exact by least squares on the distances to the neighbours' edges, across these (FitDepth). An
+/// edge counts only where one of its sides is about as bright as in the first view. What stays ambiguous, has
+/// too few witnesses or runs along the epipolar lines is left out.
 class EdgeStereo {
  public:
   EdgeStereo(const std::vector<PosedEdges>& views, const EdgeStereoOptions& options)
@@ -46,11 +38,9 @@ class EdgeStereo {
                                  double typical_depth) const;
 
  private:
-  struct Neighbour;
-  struct Fit;
-  std::vector<Neighbour> Prepare(int key, const std::vector<int>& neighbours) const;
-  Fit Refine(const EdgePixel& edge, const std::vector<Neighbour>& neighbours, double inverse_depth,
-             double step) const;
+  // Nothing where it is ambiguous or not well known.
+  std::optional<DepthFit> BestFit(const EdgePixel& edge, const std::vector<StereoNeighbour>& neighbours,
+                                  const DepthSteps& steps, DepthVotes* votes) const;
 
   const std::vector<PosedEdges>& views_;
   EdgeStereoOptions options_;

@@ -26,8 +26,8 @@ class PointEvidence {
  private:
   Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero();  // of the position, map frame; m^-2
   Eigen::Vector3d gradient_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d by_lag_ = Eigen::Vector3d::Zero();     // of position and lag together
-  double lag_information_ = 0, lag_gradient_ = 0;        // of the lag; px^-2
+  Eigen::Vector3d by_lag_ = Eigen::Vector3d::Zero();  // of position and lag together
+  double lag_information_ = 0, lag_gradient_ = 0;     // of the lag; px^-2
   int expected_ = 0, seen_ = 0;
 };
 

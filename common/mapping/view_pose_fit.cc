@@ -29,8 +29,8 @@ struct NormalEquations {
   Vector6d gradient = Vector6d::Zero();
 };
 
-// Of the points' distances to their edges, by a right-hand perturbation of the pose: a point of the camera frame
-// moves by -R^T dp + p x dtheta.
+// Of the points' distances to their edges, by a right-hand perturbation of the pose: a point of the camera
+// frame moves by -R^T dp + p x dtheta.
 NormalEquations OfEdges(const PosedEdges& view, const std::vector<MappedPoint>& points,
                         const std::vector<std::int32_t>& ids, double radius, double edge_sigma_px) {
   const PinholeView pinhole(view.T_map_camera, view.camera);

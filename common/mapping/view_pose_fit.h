@@ -8,8 +8,8 @@
 
 namespace evit {
 
-/// Moves a view, within what is known of the pose that was `given`, to where the points that it sees lie on its
-/// edges, which are looked for within `radius` pixels. Leaves it where it is if there is no solution.
+/// Moves a view, within what is known of the pose that was `given`, to where the points that it sees lie on
+/// its edges, which are looked for within `radius` pixels. Leaves it where it is if there is no solution.
 void FitViewPose(const std::vector<MappedPoint>& points, double radius, const SE3& given,
                  const EdgeAdjustmentOptions& options, PosedEdges* view);
 
