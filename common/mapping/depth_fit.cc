@@ -12,8 +12,8 @@ constexpr float kFirstRadiusPx = 2.5F, kRadiusPx = 1.8F;  // within which a neig
 constexpr double kInlierPx = 1.2;
 constexpr double kKernelPx = 0.7;  // scale of the Cauchy kernel
 
-// Normal equations of three unknowns: the inverse depth; by how much the key view's own edge is misplaced across
-// (in units of sigma); and by how many pixels events come late.
+// Normal equations of three unknowns: the inverse depth; by how much the key view's own edge is misplaced
+// across (in units of sigma); and by how many pixels events come late.
 struct Equations {
   double a = 0, b = 0, c = 1, ga = 0, gb = 0;  // of depth and own place, which has a prior
   double al = 0, bl = 0, l = 0, gl = 0;        // of the lag, with both
@@ -77,8 +77,8 @@ bool AddNeighbour(const StereoNeighbour& n, const EdgePixel& edge, float radius,
 
 }  // namespace
 
-DepthFit FitDepth(const EdgePixel& edge, const std::vector<StereoNeighbour>& neighbours,
-                  double inverse_depth, double step, const EdgeStereoOptions& options) {
+DepthFit FitDepth(const EdgePixel& edge, const std::vector<StereoNeighbour>& neighbours, double inverse_depth,
+                  double step, const EdgeStereoOptions& options) {
   const double per_lag2 = 1 / (options.lag_sigma_px * options.lag_sigma_px);
   DepthFit fit;
   fit.inverse_depth = inverse_depth;

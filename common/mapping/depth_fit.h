@@ -17,7 +17,7 @@ struct DepthFit {
 };
 
 /// From an inverse depth that is right to within a step or two. The neighbours are aimed at the edge.
-DepthFit FitDepth(const EdgePixel& edge, const std::vector<StereoNeighbour>& neighbours,
-                  double inverse_depth, double step, const EdgeStereoOptions& options);
+DepthFit FitDepth(const EdgePixel& edge, const std::vector<StereoNeighbour>& neighbours, double inverse_depth,
+                  double step, const EdgeStereoOptions& options);
 
 }  // namespace evit

@@ -136,7 +136,7 @@ void H5EventReader::ReadRows(std::size_t n, EventArray* events) {
 
 void H5EventReader::ReadCompounds(std::size_t n, EventArray* events) {
   std::vector<H5Event> compounds;
-  H5File::ReadEvents(t_, at_, n, &compounds);
+  t_.ReadEvents(at_, n, &compounds);
   for (const H5Event& e : compounds) events->push_back(e.t, e.x, e.y, Polarity(t_, e.p));
   stamps_->FromIntegers(&events->t);
 }
