@@ -7,17 +7,15 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/files/decimal_time.h"
 #include "common/files/staged_file.h"
-#include "common/imu/imu_plausibility.h"
+#include "tools/formats/import/import_checks.h"
 #include "tools/formats/import/ordered_events.h"
 #include "tools/formats/import/stream_writer.h"
 
 namespace evit::formats {
 namespace {
 
-// A longer hole is a damaged time stamp, or two clocks: its silence would fill the log with empty packets.
-constexpr Utime kMaxHole = 600 * kMicrosPerSecond;
+constexpr Utime kNoEnd = std::numeric_limits<Utime>::max();
 
 template <typename List>
 void Clip(List* list, Utime begin, Utime end) {
@@ -26,99 +24,9 @@ void Clip(List* list, Utime begin, Utime end) {
       list->end());
 }
 
-void CheckHole(const std::string& name, Utime before, Utime after) {
-  if (after - before <= kMaxHole) return;
-  throw std::runtime_error(
-      name + ": the time jumps from " + DecimalSeconds(before) + " s to " + DecimalSeconds(after) +
-      " s: a damaged time stamp, or several recordings; import each recording separately");
-}
-
-// Stamps in the wrong unit would make a log of nothing but silence.
-void CheckRate(const std::string& name, std::int64_t n, Utime span) {
-  constexpr std::int64_t kFew = 1000;
-  constexpr double kSlowest = 0.1;  // s an event
-  if (n < kFew || ToSeconds(span) < kSlowest * static_cast<double>(n)) return;
-  throw std::runtime_error(
-      name + ": " + std::to_string(n) + " events in " + DecimalSeconds(span) +
-      " s: the unit of the stamps is another one; name it in the head (t_us, t_ms, t_ns), or "
-      "write seconds with six decimals");
-}
-
-// Stamps that were rounded away, as those since 1970 in 32-bit floats.
-void RequireDistinctStamps(const std::string& name, std::int64_t n, std::int64_t n_stamps) {
-  constexpr std::int64_t kFew = 1000, kStamps = 10;
-  if (n < kFew || n_stamps > kStamps) return;
-  throw std::runtime_error(
-      name + ": its " + std::to_string(n) + " events have only " + std::to_string(n_stamps) +
-      " different stamps: were they rounded, as 32-bit floats of seconds since 1970 are? "
-      "Write them as integers or 64-bit floats");
-}
-
 double Rate(const std::vector<ImuSample>& imu) {
   if (imu.size() < 2) return 0;
   return static_cast<double>(imu.size() - 1) / ToSeconds(imu.back().t - imu.front().t);
-}
-
-std::string OtherClock(Utime imu, Utime first_event) {
-  return " (IMU " + DecimalSeconds(imu) + " s, first event " + DecimalSeconds(first_event) +
-         " s): the files are from different sequences or clocks; if the clocks, --imu-offset SECONDS is "
-         "added to the "
-         "IMU's stamps";
-}
-
-void CheckImu(const ImportStreams& streams, Utime first_event) {
-  if (streams.imu_name.empty()) return;
-  if (streams.imu.size() < 2) throw std::runtime_error(streams.imu_name + ": holds no IMU samples");
-  for (std::size_t k = 1; k < streams.imu.size(); ++k)
-    CheckHole(streams.imu_name, streams.imu[k - 1].t, streams.imu[k].t);
-  if (streams.imu.back().t < first_event) {
-    throw std::runtime_error(streams.imu_name + ": ends before the first event" +
-                             OtherClock(streams.imu.back().t, first_event));
-  }
-}
-
-// When the truth begins and ends.
-using Span = std::optional<std::pair<Utime, Utime>>;
-
-void CheckTruth(const std::string& name, const Span& truth, Utime first, Utime last) {
-  if (!truth || (truth->first <= last && truth->second >= first)) return;
-  throw std::runtime_error((name.empty() ? "ground truth" : name) +
-                           ": none of its poses is of the time of the events (poses " +
-                           DecimalSeconds(truth->first) + " to " + DecimalSeconds(truth->second) +
-                           " s, events " + DecimalSeconds(first) + " to " + DecimalSeconds(last) +
-                           " s): it is of another sequence or clock; give the right one with --truth FILE, "
-                           "or --truth none");
-}
-
-// Samples and poses in order of time; too many that cannot be are an error.
-void PutInOrder(ImportStreams* streams) {
-  TimeOrderOptions strict;
-  strict.strict = true;
-  const auto put = [&](auto* list, const std::string& name, DropCounts* dropped, const char* what) {
-    TimeOrderCounts counts;
-    const auto same = [&](const auto& s) { return s.t == list->front().t; };
-    if (list->size() > 2 && std::all_of(list->begin(), list->end(), same))
-      throw std::runtime_error(name + ": all " + what + " have the same stamp, " +
-                               DecimalSeconds(list->front().t) +
-                               " s: the program that recorded them must fill in the time (header.stamp)");
-    *list = InTimeOrder(*list, strict, &counts);
-    dropped->Add(counts);
-    RequireMostKept(name, *dropped, static_cast<std::int64_t>(list->size()), what);
-  };
-  put(&streams->imu, streams->imu_name, &streams->dropped_imu, "IMU samples");
-  put(&streams->truth, "ground truth", &streams->dropped_truth, "truth poses");
-}
-
-// Scales to m/s^2 and rad/s, then refuses what still cannot be.
-void CheckUnits(const ImportTarget& target, ImportStreams* streams) {
-  for (ImuSample& s : streams->imu) {
-    s.accel *= target.accel_scale;
-    s.gyro *= target.gyro_scale;
-  }
-  const std::string complaint = target.any_imu ? "" : ImuComplaint(streams->imu);
-  if (complaint.empty()) return;
-  throw std::runtime_error(streams->imu_name + ": " + complaint +
-                           "; --accel-unit and --gyro-unit convert, --any-imu takes it as it is");
 }
 
 // Truth of an earlier import must not stay beside a log that has none, and goes only once the new log is in
@@ -135,90 +43,143 @@ void PutInPlace(StagedFile* log, const std::string& out, const Trajectory& truth
   }
 }
 
+// One import, from the first event to the summary.
+class Import {
+ public:
+  Import(const ImportTarget& target, EventSource* source, ImportStreams streams)
+      : target_(target), events_(source), streams_(std::move(streams)) {}
+
+  ImportSummary Run(const std::function<void(double)>& progress);
+
+ private:
+  bool has_imu() const { return !streams_.imu_name.empty(); }
+  void ReadFirst();
+  void ChoosePart();
+  void WriteEvents(StreamWriter* writer, const std::function<void(double)>& progress);
+  bool WritePiece(StreamWriter* writer);
+  void CheckStamps();
+  void CheckWhole() const;
+  ImportSummary Summary(std::int64_t n_packets) const;
+
+  const ImportTarget& target_;
+  OrderedEvents events_;
+  ImportStreams streams_;
+  EventArray piece_;
+  Utime first_ = 0, last_ = 0;      // events; the last so far
+  Utime begin_ = 0, end_ = kNoEnd;  // of the part that is taken
+  std::optional<TimeSpan> truth_;   // when it begins and ends, before the part is cut out
+  std::int64_t n_read_ = 0, n_stamps_ = 1, n_events_ = 0;  // events read, different stamps, events written
+};
+
+void Import::ReadFirst() {
+  if (!events_.Read(&piece_)) {
+    const std::string dropped = DropText(events_.dropped(), "events");
+    throw std::runtime_error(events_.name() + ": holds no event" + (dropped.empty() ? "" : "; " + dropped));
+  }
+  first_ = last_ = piece_.t.front();
+}
+
+void Import::ChoosePart() {
+  begin_ = has_imu() ? std::min(first_, streams_.imu.front().t) : first_;
+  if (target_.seconds) {
+    begin_ = first_ + static_cast<Utime>(target_.seconds->first * 1e6);
+    end_ = first_ + static_cast<Utime>(target_.seconds->second * 1e6);
+  }
+  if (!streams_.truth.empty()) truth_ = {streams_.truth.front().t, streams_.truth.back().t};
+  Clip(&streams_.imu, begin_, end_);
+  Clip(&streams_.truth, begin_, end_);
+  if (has_imu() && streams_.imu.size() < 2)
+    throw std::runtime_error("the part asked for by --seconds holds no IMU samples");
+}
+
+// Of the piece, as far as the part goes.
+void Import::CheckStamps() {
+  const std::string name = events_.name();
+  n_read_ += static_cast<std::int64_t>(piece_.size());
+  CheckRate(name, n_read_, piece_.t.back() - first_);
+  Utime last = last_;
+  for (std::size_t k = 0; k < piece_.size() && last <= end_; ++k) {
+    CheckHole(name, last, piece_.t[k]);
+    n_stamps_ += piece_.t[k] != last ? 1 : 0;
+    last = piece_.t[k];
+  }
+}
+
+// False where the part ends within the piece.
+bool Import::WritePiece(StreamWriter* writer) {
+  const auto at = [&](Utime t) {
+    return static_cast<std::size_t>(std::lower_bound(piece_.t.begin(), piece_.t.end(), t) - piece_.t.begin());
+  };
+  const std::size_t from = at(begin_), to = end_ == kNoEnd ? piece_.size() : at(end_ + 1);
+  if (from < to) {
+    writer->AddEvents(piece_, from, to);
+    n_events_ += static_cast<std::int64_t>(to - from);
+  }
+  if (to > 0) last_ = piece_.t[to - 1];
+  return to == piece_.size();
+}
+
+void Import::WriteEvents(StreamWriter* writer, const std::function<void(double)>& progress) {
+  bool more = true;
+  while (more) {
+    CheckStamps();
+    more = WritePiece(writer);
+    progress(target_.seconds ? static_cast<double>(last_ - begin_) / static_cast<double>(end_ - begin_)
+                             : events_.share());
+    more = more && events_.Read(&piece_);
+  }
+}
+
+// What only shows in the end.
+void Import::CheckWhole() const {
+  RequireMostKept(events_.name(), events_.dropped(), n_read_, "events");
+  RequireDistinctStamps(events_.name(), n_read_, n_stamps_);
+  if (n_events_ == 0) throw std::runtime_error("the part asked for by --seconds holds no events");
+  CheckImuBegins(streams_, first_, last_);
+  if (truth_) CheckTruth(streams_.truth_name, *truth_, first_, last_);
+}
+
+ImportSummary Import::Summary(std::int64_t n_packets) const {
+  ImportSummary summary;
+  summary.n_events = n_events_;
+  summary.n_packets = n_packets;
+  summary.n_imu = static_cast<std::int64_t>(streams_.imu.size());
+  summary.n_truth = static_cast<std::int64_t>(streams_.truth.size());
+  summary.seconds = ToSeconds(last_ - begin_);
+  summary.first_event = std::max(first_, begin_);
+  summary.last_event = last_;
+  summary.imu_rate_hz = Rate(streams_.imu);
+  summary.dropped_events = events_.dropped();
+  summary.dropped_imu = streams_.dropped_imu;
+  summary.dropped_truth = streams_.dropped_truth;
+  return summary;
+}
+
+ImportSummary Import::Run(const std::function<void(double)>& progress) {
+  PutInOrder(&streams_);
+  CheckUnits(target_, &streams_);
+  ReadFirst();
+  CheckImu(streams_, first_);
+  ChoosePart();
+  StagedFile log(target_.out);
+  std::int64_t n_packets = 0;
+  {
+    StreamWriter writer(log.part(), begin_, streams_.imu, streams_.truth);
+    WriteEvents(&writer, progress);
+    CheckWhole();
+    writer.Close(has_imu() ? std::max(last_, streams_.imu.back().t) : last_);
+    n_packets = writer.n_packets();
+  }
+  PutInPlace(&log, target_.out, streams_.truth);
+  progress(1);
+  return Summary(n_packets);
+}
+
 }  // namespace
 
-ImportSummary ImportLog(const ImportTarget& target, EventSource* source, ImportStreams streams,
+ImportSummary ImportLog(const ImportTarget& target, EventSource* events, ImportStreams streams,
                         const std::function<void(double)>& progress) {
-  PutInOrder(&streams);
-  CheckUnits(target, &streams);
-  OrderedEvents ordered(source);
-  EventSource* const events = &ordered;
-  EventArray piece;
-  bool more = events->Read(&piece);
-  if (!more) {
-    const std::string dropped = DropText(events->dropped(), "events");
-    throw std::runtime_error(events->name() + ": holds no event" + (dropped.empty() ? "" : "; " + dropped));
-  }
-  const Utime first = piece.t.front();
-  CheckImu(streams, first);
-  const bool has_imu = !streams.imu_name.empty();
-  Utime begin = has_imu ? std::min(first, streams.imu.front().t) : first,
-        end = std::numeric_limits<Utime>::max();
-  if (target.seconds) {
-    begin = first + static_cast<Utime>(target.seconds->first * 1e6);
-    end = first + static_cast<Utime>(target.seconds->second * 1e6);
-  }
-  Clip(&streams.imu, begin, end);
-  Span truth;
-  if (!streams.truth.empty()) truth = {streams.truth.front().t, streams.truth.back().t};
-  Clip(&streams.truth, begin, end);
-  if (has_imu && streams.imu.size() < 2)
-    throw std::runtime_error("the part asked for by --seconds holds no IMU samples");
-
-  StagedFile log(target.out);
-  ImportSummary summary;
-  Utime last = first;
-  std::int64_t n_read = 0, n_stamps = 1;
-  {
-    const std::string name = events->name();
-    StreamWriter writer(log.part(), begin, streams.imu, streams.truth);
-    for (; more; more = more && events->Read(&piece)) {
-      n_read += static_cast<std::int64_t>(piece.size());
-      const Utime before = last;
-      CheckRate(name, n_read, piece.t.back() - first);
-      for (std::size_t k = 0; k < piece.size() && last <= end; ++k) {
-        CheckHole(name, last, piece.t[k]);
-        n_stamps += piece.t[k] != last ? 1 : 0;
-        last = piece.t[k];
-      }
-      const auto at = [&](Utime t) {
-        return std::lower_bound(piece.t.begin(), piece.t.end(), t) - piece.t.begin();
-      };
-      const auto from = static_cast<std::size_t>(at(begin));
-      const std::size_t to =
-          end == std::numeric_limits<Utime>::max() ? piece.size() : static_cast<std::size_t>(at(end + 1));
-      if (to < piece.size()) more = false;
-      if (from < to) {
-        writer.AddEvents(piece, from, to);
-        summary.n_events += static_cast<std::int64_t>(to - from);
-      }
-      last = to > 0 ? piece.t[to - 1] : before;
-      progress(target.seconds ? static_cast<double>(last - begin) / static_cast<double>(end - begin)
-                              : events->share());
-    }
-    RequireMostKept(events->name(), events->dropped(), n_read, "events");
-    RequireDistinctStamps(name, n_read, n_stamps);
-    if (summary.n_events == 0) throw std::runtime_error("the part asked for by --seconds holds no events");
-    if (has_imu && streams.imu.front().t > last) {
-      throw std::runtime_error(streams.imu_name + ": begins after the last event" +
-                               OtherClock(streams.imu.front().t, first));
-    }
-    CheckTruth(streams.truth_name, truth, first, last);
-    writer.Close(has_imu ? std::max(last, streams.imu.back().t) : last);
-    summary.n_packets = writer.n_packets();
-  }
-  PutInPlace(&log, target.out, streams.truth);
-  summary.n_imu = static_cast<std::int64_t>(streams.imu.size());
-  summary.n_truth = static_cast<std::int64_t>(streams.truth.size());
-  summary.seconds = ToSeconds(last - begin);
-  summary.first_event = std::max(first, begin);
-  summary.last_event = last;
-  summary.imu_rate_hz = Rate(streams.imu);
-  summary.dropped_events = events->dropped();
-  summary.dropped_imu = streams.dropped_imu;
-  summary.dropped_truth = streams.dropped_truth;
-  progress(1);
-  return summary;
+  return Import(target, events, std::move(streams)).Run(progress);
 }
 
 }  // namespace evit::formats
