@@ -72,14 +72,14 @@ std::vector<SE3> FollowedPlaces::MoveTo(Utime t, const ImuBetween& imu) {
 }
 
 void FollowedPlaces::AddAnswer(Utime t, std::size_t predicted, const std::vector<PlaceCandidate>& answer,
-                               bool everywhere) {
+                               bool compared) {
   const std::size_t n = std::min({places_.size(), predicted, answer.size()});
-  std::size_t best = 0;  // with which the finder has compared the rest of the map
+  std::size_t best = 0;
   for (std::size_t k = 0; k < n; ++k) {
     Fit(t, answer[k], &places_[k]);
     if (answer[k].significance > answer[best].significance) best = k;
   }
-  if (everywhere && n > 0) places_[best].compared = true;
+  if (compared && n > 0) places_[best].compared = true;
   for (std::size_t k = predicted; k < answer.size(); ++k) Adopt(t, answer[k]);
   DropWeak();
 }

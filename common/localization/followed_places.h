@@ -53,8 +53,9 @@ class FollowedPlaces {
   /// Moves all to time t (us): T_map_body of each, as predicted.
   std::vector<SE3> MoveTo(Utime t, const ImuBetween& imu);
   /// The answer to a question about the keyframe of time t: its first `predicted` are those of MoveTo,
-  /// fitted; what comes then are other places, from all over the map where `everywhere`.
-  void AddAnswer(Utime t, std::size_t predicted, const std::vector<PlaceCandidate>& answer, bool everywhere);
+  /// fitted; what comes then are other places. `compared`: the map was searched for what looks like the most
+  /// significant of the first ones.
+  void AddAnswer(Utime t, std::size_t predicted, const std::vector<PlaceCandidate>& answer, bool compared);
 
   /// The most significant over all of its steps. Not for an empty set.
   const FollowedPlace& Best() const;

@@ -126,14 +126,14 @@ std::vector<PlaceMatch> PlaceFinder::Matches(const PlaceQuery& query, const cv::
   const EventPanorama panorama(surface, rig_.camera, UprightOf(query) * rig_.T_body_camera.q,
                                options_.directions);
   if (panorama.occupied() < kFewestPlaces) return {};
-  if (!options_.panoramas) return SpreadEvenly(count);
   std::function<bool(const Eigen::Vector3f&, double)> allowed;
   if (!query.prior.open()) {
     allowed = [&](const Eigen::Vector3f& at, double yaw) {
       return query.prior.Allows(BodyAt(query, rig_, at, yaw), index_.spacing(), panorama::kBin);
     };
   }
-  return BestMatches(index_, panorama, count, allowed, options_.threads);
+  return options_.panoramas ? BestMatches(index_, panorama, count, allowed, options_.threads)
+                            : SpreadEvenly(count, allowed);
 }
 
 std::vector<PlaceCandidate> PlaceFinder::Everywhere(const PlaceQuery& query, const SurfaceField& field,
@@ -161,12 +161,17 @@ std::vector<PlaceCandidate> PlaceFinder::Everywhere(const PlaceQuery& query, con
   return aligned;
 }
 
-std::vector<PlaceMatch> PlaceFinder::SpreadEvenly(std::size_t count) const {
+std::vector<PlaceMatch> PlaceFinder::SpreadEvenly(
+    std::size_t count, const std::function<bool(const Eigen::Vector3f&, double)>& allowed) const {
   constexpr double kGoldenAngle = 2.39996;
-  const std::vector<PlaceIndex::Place>& places = index_.places();
-  std::vector<PlaceMatch> matches;
-  for (std::size_t k = 0; k < std::min(count, places.size()); ++k)
-    matches.push_back({places[k * places.size() / count].at, kGoldenAngle * static_cast<double>(k), 0});
+  std::vector<PlaceMatch> possible, matches;
+  double yaw = 0;
+  for (const PlaceIndex::Place& place : index_.places()) {
+    yaw += kGoldenAngle;
+    if (!allowed || allowed(place.at, yaw)) possible.push_back({place.at, yaw, 0});
+  }
+  count = std::min(count, possible.size());
+  for (std::size_t k = 0; k < count; ++k) matches.push_back(possible[k * possible.size() / count]);
   return matches;
 }
 

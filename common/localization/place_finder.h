@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "common/geometry/rig.h"
@@ -44,7 +45,8 @@ class PlaceFinder {
   std::vector<PlaceCandidate> Everywhere(const PlaceQuery& query, const SurfaceField& field,
                                          const std::vector<PlaceCandidate>& refined) const;
   std::vector<PlaceMatch> Matches(const PlaceQuery& query, const cv::Mat& surface, std::size_t count) const;
-  std::vector<PlaceMatch> SpreadEvenly(std::size_t count) const;
+  std::vector<PlaceMatch> SpreadEvenly(
+      std::size_t count, const std::function<bool(const Eigen::Vector3f&, double)>& allowed) const;
   PlaceCandidate Aligned(const SurfaceField& field, const SE3& T_map_body, const StartRange& range) const;
   PlaceCandidate Searched(const SurfaceField& field, const SE3& T_map_body, const StartRange& range,
                           std::int64_t number) const;

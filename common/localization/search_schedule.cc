@@ -13,7 +13,7 @@ constexpr Utime kApart = 2'000'000;  // us: what was tried longer ago says nothi
 
 void SearchSchedule::Clear() {
   verticals_.Clear();
-  last_ = 0;
+  tried_at_ = last_ = 0;
 }
 
 double SearchSchedule::Allowed(Utime t) const {
@@ -26,11 +26,16 @@ bool SearchSchedule::Due(Utime t, bool convinced) const {
 }
 
 Eigen::Vector3d SearchSchedule::Begin(Utime t, const Upright& upright, const RecentImu& imu) {
-  allowed_ = std::max(0.0, Allowed(t) - 1);
-  if (t < last_ || t - last_ > kApart) verticals_.Clear();
-  const Eigen::Vector3d up = verticals_.Next(upright, imu.Turn(last_, t), ToSeconds(t - last_));
-  last_ = t;
+  if (t < tried_at_ || t - tried_at_ > kApart) verticals_.Clear();
+  const Eigen::Vector3d up = verticals_.Next(upright, imu.Turn(tried_at_, t), ToSeconds(t - tried_at_));
+  tried_at_ = t;
+  BeginComparison(t);
   return up;
+}
+
+void SearchSchedule::BeginComparison(Utime t) {
+  allowed_ = std::max(0.0, Allowed(t) - 1);
+  last_ = t;
 }
 
 }  // namespace evit

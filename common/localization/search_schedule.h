@@ -19,13 +19,16 @@ class SearchSchedule {
   /// There is a search at t: returns its vertical, body frame. `imu` reaches back to the search before, if it
   /// was not long ago.
   Eigen::Vector3d Begin(Utime t, const Upright& upright, const RecentImu& imu);
+  /// There is one whose vertical is known: it costs as much, and says nothing of other verticals.
+  void BeginComparison(Utime t);
 
  private:
   double Allowed(Utime t) const;
 
   double again_s_;
   VerticalSearch verticals_;
-  Utime last_ = 0;      // us; 0: none yet
+  Utime tried_at_ = 0;  // us, of the newest vertical; 0: none yet
+  Utime last_ = 0;      // us, of the newest search; 0: none yet
   double allowed_ = 0;  // searches, then
 };
 

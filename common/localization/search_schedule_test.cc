@@ -19,6 +19,20 @@ TEST(SearchSchedule, AFewAtOnceThenTenASecond) {
   EXPECT_NEAR(later, 20, 1);
 }
 
+TEST(SearchSchedule, AComparisonCostsASearchButTriesNoVertical) {
+  SearchSchedule schedule(1), other(1);
+  const RecentImu imu;
+  const Eigen::Vector3d first = schedule.Begin(5 * kS, kUp, imu);
+  EXPECT_EQ(first, other.Begin(5 * kS, kUp, imu));
+  schedule.BeginComparison(5 * kS);
+  EXPECT_EQ(schedule.Begin(5 * kS, kUp, imu), other.Begin(5 * kS, kUp, imu));
+  for (int left = 2; left > 0; --left) {
+    EXPECT_TRUE(schedule.Due(5 * kS, false));
+    schedule.BeginComparison(5 * kS);
+  }
+  EXPECT_FALSE(schedule.Due(5 * kS, false));
+}
+
 TEST(SearchSchedule, RarelyWhileSomethingConvinces) {
   SearchSchedule schedule(1);
   EXPECT_TRUE(schedule.Due(5 * kS, true));

@@ -8,6 +8,7 @@
 #include "common/localization/prior_text.h"
 #include "common/localization/upright.h"
 #include "common/text/format_text.h"
+#include "common/tracking/alignment_significance.h"
 #include "common/tracking/visual_inertial_alignment.h"
 
 namespace evit {
@@ -81,6 +82,7 @@ void SelfLocator::AddKeyframe(const KeyframeInput& keyframe) {
 // newest; that one also where what is followed does not convince.
 void SelfLocator::AskNext() {
   if (question_ || newest_.t == 0 || found_at_ != 0) return;
+  comparing_ = false;
   if (places_.empty()) views_.clear();
   if (views_.empty()) {
     if (!Convinced() && searches_.Due(newest_.t, false)) AskEverywhere(newest_, {});
@@ -90,10 +92,13 @@ void SelfLocator::AskNext() {
   const View view = std::move(views_.front());
   views_.pop_front();
   std::vector<SE3> predicted = places_.MoveTo(view.t, Imu());
-  if (searches_.Due(view.t, Convinced()) || (ToCompare() && searches_.Due(view.t, false))) {
-    AskEverywhere(view, predicted);
-    if (question_) return;
+  comparing_ = ToCompare() && searches_.Due(view.t, false);
+  if (comparing_) {
+    AskForPlacesLikeTheBest(view, std::move(predicted));
+    return;
   }
+  if (searches_.Due(view.t, Convinced())) AskEverywhere(view, predicted);
+  if (question_) return;
   question_ =
       PlaceQuery{++asked_, view.t, view.surface, Eigen::Vector3d::UnitZ(), false, std::move(predicted), {}};
 }
@@ -125,11 +130,16 @@ void SelfLocator::AskEverywhere(const View& view, std::vector<SE3> hypotheses) {
     return;
   }
   const Eigen::Vector3d tried = searches_.Begin(view.t, upright, imu_);
-  Eigen::Vector3d up = options_.other_verticals ? tried : upright.up;
-  if (!hypotheses.empty() && ToCompare())  // its pose knows the vertical best
-    up = places_.Best().state.T_map_body.q.conjugate() * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d up = options_.other_verticals ? tried : upright.up;
   question_ = PlaceQuery{++asked_, view.t, view.surface, up, true, std::move(hypotheses), options_.prior};
   if (places_.empty()) progress_ = "searching " + Searched();
+}
+
+void SelfLocator::AskForPlacesLikeTheBest(const View& view, std::vector<SE3> hypotheses) {
+  searches_.BeginComparison(view.t);
+  // The place's own pose knows the vertical best.
+  const Eigen::Vector3d up = places_.Best().state.T_map_body.q.conjugate() * Eigen::Vector3d::UnitZ();
+  question_ = PlaceQuery{++asked_, view.t, view.surface, up, true, std::move(hypotheses), options_.prior};
 }
 
 std::string SelfLocator::Searched() const {
@@ -138,7 +148,12 @@ std::string SelfLocator::Searched() const {
 
 void SelfLocator::AddAnswer(const std::vector<PlaceCandidate>& answer) {
   if (!question_) return;
-  places_.AddAnswer(question_->t, question_->hypotheses.size(), answer, question_->everywhere);
+  // Only for what fits this keyframe well does the finder look for places alike.
+  const std::size_t predicted = std::min(question_->hypotheses.size(), answer.size());
+  const bool compared =
+      comparing_ && std::any_of(answer.begin(), answer.begin() + predicted,
+                                [](const auto& a) { return a.significance >= kStartSignificance; });
+  places_.AddAnswer(question_->t, predicted, answer, compared);
   question_.reset();
   Decide();
   AskNext();

@@ -78,6 +78,7 @@ class SelfLocator {
   void AskNext();
   void AskEverywhere(const View& view, std::vector<SE3> hypotheses);
   bool ToCompare() const;
+  void AskForPlacesLikeTheBest(const View& view, std::vector<SE3> hypotheses);
   std::string Searched() const;  // "the map", or the part of it that the prior leaves
   bool Convinced() const;
   void Decide();
@@ -92,6 +93,7 @@ class SelfLocator {
   RecentImu imu_;
   std::deque<View> views_;  // not asked about yet
   std::optional<PlaceQuery> question_;
+  bool comparing_ = false;  // it is about places that look like the best one
   FollowedPlaces places_;
   View newest_{0, {}};  // of all that were kept; t 0: none
   SearchSchedule searches_;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "common/localization/locating_tracker.h"
 #include "tests/helpers/synthetic_room.h"
 
@@ -110,6 +112,23 @@ TEST_F(SelfLocatorTest, BeforeItClaimsAPlaceItLooksForOthersLikeIt) {
   EXPECT_TRUE(compared);
   EXPECT_FALSE(locator_->Found());
   EXPECT_EQ(locator_->Progress(), "ambiguous: 2 places look alike");
+}
+
+// Where a place fits badly, the finder does not look for others like it: the question does not count.
+TEST_F(SelfLocatorTest, AComparisonInAKeyframeThatThePlaceFitsBadlyDoesNotCount) {
+  const synthetic::IndexedRoom& room = synthetic::TheRoom();
+  locator_.emplace(synthetic::IndexedRoom::TestRig(), TrackerOptions());
+  for (now_ = 1'000'000; now_ <= 2'500'000; now_ += kStep) {
+    locator_->AddKeyframe(Keyframe(room.index.map(), now_, now_ == 1'000'000));
+    while (const PlaceQuery* question = locator_->question()) {
+      std::vector<PlaceCandidate> answer = room.finder.Answer(*question);
+      for (std::size_t k = 0; question->everywhere && k < question->hypotheses.size(); ++k)
+        answer[k].significance = std::min(answer[k].significance, 4.9);
+      locator_->AddAnswer(answer);
+    }
+  }
+  EXPECT_FALSE(locator_->Found());
+  EXPECT_EQ(locator_->Progress(), "a place fits; comparing it with the rest of the map");
 }
 
 TEST_F(SelfLocatorTest, AtRestItDoesNotDecide) {
