@@ -147,7 +147,7 @@ std::vector<MappedPoint> FuseDepths(const std::vector<PosedEdges>& views, const 
         const double s = witness.sigma * z * depth.inverse_depth;
         sum += w / (s * s), weight += 1 / (s * s);
       }
-      if (agree < std::max(1, std::min(options.min_other_keys, seen))) continue;
+      if (agree < std::max(options.least_keys, std::min(options.min_other_keys, seen))) continue;
       depth.inverse_depth = sum / weight;
       depth.sigma = 1 / std::sqrt(weight);
       MappedPoint fused = PointOf(views[keys[k].view], depth);

@@ -77,18 +77,28 @@ EdgeAdjustment::Search EdgeAdjustment::SearchOf(int round) const {
   return {radius, last ? 1 : 1 + (static_cast<int>(views_->size()) - 1) / kViewsPerPoint, last};
 }
 
+bool EdgeAdjustment::IsShown(const PointEvidence& evidence, const Search& search) const {
+  const double strict = search.last ? 1 : kLenient;
+  double views = static_cast<double>(options_.min_views) / search.every;
+  if (options_.fewer_if_all) views = std::min<double>(views, evidence.expected());
+  return evidence.seen() >= strict * views &&
+         static_cast<double>(evidence.seen()) / evidence.expected() >= strict * options_.min_share;
+}
+
 void EdgeAdjustment::FitPoints(const Sightings& sightings, const Search& search,
                                std::vector<MappedPoint>* points, std::vector<MappedPoint>* measured) const {
-  const double strict = search.last ? 1 : kLenient;
   std::size_t kept = 0;
   for (std::size_t k = 0; k < points->size(); ++k) {
     const PointEvidence& evidence = sightings.of_points[k];
     MappedPoint point = (*points)[k];
-    point.views = evidence.seen();
-    point.seen = evidence.expected() > 0 ? static_cast<double>(evidence.seen()) / evidence.expected() : 0;
-    if (point.views < strict * options_.min_views / search.every || point.seen < strict * options_.min_share)
+    if (evidence.expected() > 0) {
+      point.views = evidence.seen();
+      point.seen = static_cast<double>(evidence.seen()) / evidence.expected();
+      if (!IsShown(evidence, search)) continue;
+      evidence.Fit((*measured)[k], !search.last, options_, &point);
+    } else if (search.last || !options_.fewer_if_all) {
       continue;
-    evidence.Fit((*measured)[k], !search.last, options_, &point);
+    }
     (*points)[kept] = point;
     (*measured)[kept] = (*measured)[k];
     ++kept;

@@ -39,6 +39,7 @@ class EdgeAdjustment {
   Sightings Collect(const std::vector<MappedPoint>& points, const Search& search) const;
   void CollectIn(int view, const std::vector<MappedPoint>& points, const Search& search,
                  Sightings* sightings) const;
+  bool IsShown(const PointEvidence& evidence, const Search& search) const;
   void FitPoints(const Sightings& sightings, const Search& search, std::vector<MappedPoint>* points,
                  std::vector<MappedPoint>* measured) const;
 

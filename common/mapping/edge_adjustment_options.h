@@ -14,6 +14,9 @@ struct EdgeAdjustmentOptions {
   double first_radius_px = 2.5, last_radius_px = 1.5;  // within which a point's edge is looked for
   double min_share = 0.25;                             // of the views that should show a point
   int min_views = 5;                                   // that show it
+  // Where fewer than `min_views` look at a point, it stays if they all show it: a depth that was measured
+  // needs no second view, one that was triangulated does.
+  bool fewer_if_all = false;
   // Moving a point from where it was costs as much as so many of its sigmas: what a line knows of its depth
   // from neighbours along it is not lost. 0: costs nothing.
   double hold_sigmas = 5;

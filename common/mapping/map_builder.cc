@@ -138,9 +138,12 @@ BuiltMap BuildMapFromDepths(std::vector<PosedEdges> views, std::vector<KeyDepths
   if (all.empty()) throw std::runtime_error("no edge of any view has a depth");
   map.typical_depth_m = Median(all);
   MapBuilderOptions held = options;
-  held.adjustment.hold_sigmas = 1;  // measured, not triangulated: two views are enough to believe a place
-  held.thinning.min_share = 0;      // and no depth is one of another edge
-  held.adjustment.min_views = std::min(options.adjustment.min_views, 3);
+  // Measured, not triangulated: two views are enough to accept a place, one where no other looks.
+  held.adjustment.hold_sigmas = 1;
+  held.adjustment.min_views = std::min(options.adjustment.min_views, 2);
+  held.adjustment.fewer_if_all = true;
+  held.fusion.least_keys = 0;
+  held.thinning.min_share = 0;  // no depth is one of another edge
   held.adjustment.min_share = std::min(options.adjustment.min_share, 0.25);
   held.fusion.min_other_keys = std::min(options.fusion.min_other_keys, 1);
   held.fusion.relative_tolerance = std::max(options.fusion.relative_tolerance, 0.02);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "common/mapping/edge_detector.h"
+#include "common/mapping/sensor_depth.h"
 #include "tests/helpers/painted_scene.h"
 
 namespace evit {
@@ -136,6 +137,62 @@ TEST_F(BuiltFromPictures, IsEmptyOrRefusedWithTheWrongPoses) {
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("poses"));
   }
+}
+
+// A wide wall, seen by a depth camera from 2 m: two views look at one patch, a third at another alone.
+class BuiltFromDepths : public testing::Test {
+ protected:
+  static constexpr double kLeft = -1, kRight = 2.5;  // m along the wall, the middles of the patches
+
+  static PaintedScene Wall(bool with_right) {
+    PaintedScene scene;
+    scene.Add({-5, 2, -3}, {10, 0, 0}, {0, 0, 6}, 120);
+    scene.Add({kLeft - 0.3, 1.999, -0.2}, {0.6, 0, 0}, {0, 0, 0.4}, 30);
+    if (with_right) scene.Add({kRight - 0.3, 1.999, -0.2}, {0.6, 0, 0}, {0, 0, 0.4}, 220);
+    return scene;
+  }
+  void See(const PaintedScene& scene, double x) {
+    const Camera camera = SmallCamera();
+    const SE3 pose(PaintedScene::Poses(1, 0).front().q, {x, 0, 0});
+    views_.push_back({pose, camera,
+                      EdgeImage(camera.width, camera.height,
+                                DetectEdges(scene.Picture(camera, pose), cv::Mat(), {}), true)});
+    cv::Mat depth;
+    scene.Depth(camera, pose, 1000).convertTo(depth, CV_32F, 1e-3);
+    depths_.push_back({static_cast<int>(depths_.size()), DepthsFromImage(views_.back(), depth, {})});
+  }
+  // Points near the left and the right patch.
+  std::pair<int, int> Points() const {
+    const BuiltMap map = BuildMapFromDepths(views_, depths_, {}, [](double, const std::string&) {});
+    std::pair<int, int> n;
+    for (const MappedPoint& p : map.points) {
+      EXPECT_LT(Wall(true).DistanceToEdge(p.position), 0.01);
+      ++(p.position.x() < 0.5 * (kLeft + kRight) ? n.first : n.second);
+    }
+    return n;
+  }
+
+  std::vector<PosedEdges> views_;
+  std::vector<KeyDepths> depths_;
+};
+
+TEST_F(BuiltFromDepths, ShowsWhatOneViewAloneLooksAt) {
+  See(Wall(true), kLeft - 0.1);
+  See(Wall(true), kLeft + 0.1);
+  See(Wall(true), kRight);
+  const auto [left, right] = Points();
+  EXPECT_GT(left, 150);
+  EXPECT_GT(right, 100);
+}
+
+TEST_F(BuiltFromDepths, LacksWhatAnotherViewLooksAtAndDoesNotShow) {
+  See(Wall(true), kLeft - 0.1);
+  See(Wall(true), kLeft + 0.1);
+  See(Wall(true), kRight);
+  See(Wall(false), kRight + 0.1);
+  const auto [left, right] = Points();
+  EXPECT_GT(left, 150);
+  EXPECT_EQ(right, 0);
 }
 
 TEST(BuildMap, RefusesTwoViewsAndACameraThatOnlyTurns) {

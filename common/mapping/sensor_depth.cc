@@ -15,10 +15,12 @@ double Beside(const cv::Mat& depth, const EdgePixel& edge, float side, const Sen
     const double z = depth.at<float>(static_cast<int>(row), static_cast<int>(column));
     return z >= options.min_depth_m && z <= options.max_depth_m ? z : 0.0;
   };
-  const double near = at(2), far = at(4);
+  // Depth that was registered to another camera has holes of one pixel between those it fills.
+  const float off = at(2) > 0 ? 2 : 3;
+  const double near = at(off), far = at(off + 2);
   if (near == 0 || far == 0) return near > 0 ? near : far;
   if (std::abs(near - far) > options.jump * near) return std::min(near, far);
-  return near + (near - far);  // two pixels farther on the same surface
+  return near + (near - far) * off / 2;  // so much farther on the same surface
 }
 
 }  // namespace
