@@ -114,70 +114,92 @@ class Numbers {
   bool ascii_, swap_;
 };
 
-}  // namespace
+// "property TYPE NAME" or "property list TYPE TYPE NAME", after its first word.
+Property ReadProperty(std::istringstream* words) {
+  Property property;
+  std::string type;
+  *words >> type;
+  property.list = type == "list";
+  if (property.list) {
+    *words >> type;
+    property.count_type = TypeOf(type);
+    *words >> type;
+  }
+  property.type = TypeOf(type);
+  *words >> property.name;
+  return property;
+}
 
-void ReadPly(const std::string& bytes, CloudPoints* points, std::string* format,
-             std::vector<float>* intensities) {
-  std::vector<Element> elements;
+struct Header {
   std::string encoding;
-  std::size_t at = 0;
-  for (bool header = true; header;) {
+  std::vector<Element> elements;
+  std::size_t size = 0;  // bytes
+};
+
+Header ReadHeader(const std::string& bytes) {
+  Header header;
+  while (true) {
     std::string line;
-    if (!HeaderLine(bytes, &at, &line)) Fail("the PLY header has no end_header line");
+    if (!HeaderLine(bytes, &header.size, &line)) Fail("the PLY header has no end_header line");
     std::istringstream words(LowerCase(line));
     std::string key;
     words >> key;
     if (key == "format") {
-      words >> encoding;
+      words >> header.encoding;
     } else if (key == "element") {
       Element element;
       if (!(words >> element.name >> element.count)) Fail("an element line lacks name or count");
-      elements.push_back(element);
+      header.elements.push_back(element);
     } else if (key == "property") {
-      if (elements.empty()) Fail("a property comes before any element");
-      Property property;
-      std::string type;
-      words >> type;
-      property.list = type == "list";
-      if (property.list) {
-        words >> type;
-        property.count_type = TypeOf(type);
-        words >> type;
-      }
-      property.type = TypeOf(type);
-      words >> property.name;
-      elements.back().properties.push_back(property);
+      if (header.elements.empty()) Fail("a property comes before any element");
+      header.elements.back().properties.push_back(ReadProperty(&words));
     } else if (key == "end_header") {
-      header = false;
+      return header;
     }
   }
-  *format = "PLY " + encoding;
-  Numbers numbers(bytes, at, encoding);
-  for (const Element& element : elements) {
+}
+
+// A forged count is found before memory is reserved for it.
+void RequireRows(const Element& element, const std::string& encoding, std::size_t left) {
+  if (element.count <= left / std::max<std::size_t>(1, SmallestRow(element, encoding))) return;
+  Fail("truncated: element " + element.name + " announces " + std::to_string(element.count) +
+       " rows, more than the file holds; copy the file again");
+}
+
+// One row: its coordinates, NaN where it has none, and its intensity, where asked for.
+Eigen::Vector3d ReadRow(const Element& element, Numbers* numbers, std::vector<float>* intensities) {
+  Eigen::Vector3d p = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (const Property& property : element.properties) {
+    if (property.list) {
+      const double n = numbers->Next(property.count_type);
+      if (!(n >= 0 && n <= static_cast<double>(numbers->left()))) Fail("a list's count is absurd");
+      for (double i = 0; i < n; ++i) numbers->Next(property.type);
+      continue;
+    }
+    const double value = numbers->Next(property.type);
+    if (property.name == "x" || property.name == "y" || property.name == "z") {
+      p[property.name[0] - 'x'] = value;
+    } else if (intensities != nullptr && property.name == "intensity") {
+      intensities->push_back(static_cast<float>(value));
+    }
+  }
+  return p;
+}
+
+}  // namespace
+
+void ReadPly(const std::string& bytes, CloudPoints* points, std::string* format,
+             std::vector<float>* intensities) {
+  const Header header = ReadHeader(bytes);
+  *format = "PLY " + header.encoding;
+  Numbers numbers(bytes, header.size, header.encoding);
+  for (const Element& element : header.elements) {
     const bool vertex = element.name == "vertex";
     if (vertex) RequireCoordinates(element);
-    // A forged count is found before memory is reserved for it.
-    if (element.count > numbers.left() / std::max<std::size_t>(1, SmallestRow(element, encoding))) {
-      Fail("truncated: element " + element.name + " announces " + std::to_string(element.count) +
-           " rows, more than the file holds; copy the file again");
-    }
+    RequireRows(element, header.encoding, numbers.left());
     if (vertex) points->reserve(element.count);
     for (std::size_t k = 0; k < element.count; ++k) {
-      Eigen::Vector3d p = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-      for (const Property& property : element.properties) {
-        const auto n = property.list ? numbers.Next(property.count_type) : 1.0;
-        if (property.list && !(n >= 0 && n <= static_cast<double>(numbers.left())))
-          Fail("a list's count is absurd");
-        for (double i = 0; i < n; ++i) {
-          const double value = numbers.Next(property.type);
-          if (!property.list && property.name.size() == 1 && property.name[0] >= 'x' &&
-              property.name[0] <= 'z') {
-            p[property.name[0] - 'x'] = value;
-          } else if (vertex && intensities != nullptr && !property.list && property.name == "intensity") {
-            intensities->push_back(static_cast<float>(value));
-          }
-        }
-      }
+      const Eigen::Vector3d p = ReadRow(element, &numbers, vertex ? intensities : nullptr);
       if (vertex) points->push_back(p);
     }
     if (vertex) return;

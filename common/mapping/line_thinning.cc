@@ -98,42 +98,42 @@ void ForEachPoint(std::size_t n, int threads, const Work& work) {
 
 double WeightOf(const MappedPoint& p) { return 1 / (p.sigma * p.sigma + 1e-8); }
 
-}  // namespace
-
-std::vector<MappedPoint> ThinToLines(const std::vector<MappedPoint>& points,
-                                     const LineThinningOptions& options, int threads) {
-  // First to voxels: what is left of it is few enough to look at neighbours.
-  std::vector<MappedPoint> thin;
-  {
-    std::unordered_map<CellKey, std::size_t> places;
-    std::vector<Mean> means;
-    std::vector<double> best;  // sigma
-    for (const MappedPoint& p : points) {
-      const CellKey key = Key(CellOf(p.position, options.voxel_m), MainDirection(p.direction));
-      const auto [it, fresh] = places.emplace(key, means.size());
-      if (fresh) means.emplace_back(), best.push_back(p.sigma);
-      means[it->second].Add(p, WeightOf(p));
-      best[it->second] = std::min(best[it->second], p.sigma);
-    }
-    for (std::size_t k = 0; k < means.size(); ++k) {
-      const Mean& m = means[k];
-      MappedPoint p;
-      p.position = m.position / m.weight;
-      p.direction = m.direction.normalized();
-      // Views that share neighbours err together: a voxel is no better than a third of its best point's
-      // error.
-      p.sigma = std::max(1 / std::sqrt(m.weight), best[k] / 3);
-      p.views = m.views;
-      p.seen = m.seen / m.weight;
-      p.contrast = m.contrast / m.weight;
-      thin.push_back(p);
-    }
+// One point for each voxel and main direction.
+std::vector<MappedPoint> ThinToVoxels(const std::vector<MappedPoint>& points, double voxel_m) {
+  std::unordered_map<CellKey, std::size_t> places;
+  std::vector<Mean> means;
+  std::vector<double> best;  // sigma
+  for (const MappedPoint& p : points) {
+    const CellKey key = Key(CellOf(p.position, voxel_m), MainDirection(p.direction));
+    const auto [it, fresh] = places.emplace(key, means.size());
+    if (fresh) means.emplace_back(), best.push_back(p.sigma);
+    means[it->second].Add(p, WeightOf(p));
+    best[it->second] = std::min(best[it->second], p.sigma);
   }
-  // Onto the line through the neighbours: only across it, so that lines keep their ends.
-  const PointCells cells(thin, options.reach_m);
-  std::vector<MappedPoint> moved = thin;
-  ForEachPoint(thin.size(), threads, [&](std::size_t k) {
-    const MappedPoint& own = thin[k];
+  std::vector<MappedPoint> thin;
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    const Mean& m = means[k];
+    MappedPoint p;
+    p.position = m.position / m.weight;
+    p.direction = m.direction.normalized();
+    // Views that share neighbours err together: a voxel is no better than a third of its best point's
+    // error.
+    p.sigma = std::max(1 / std::sqrt(m.weight), best[k] / 3);
+    p.views = m.views;
+    p.seen = m.seen / m.weight;
+    p.contrast = m.contrast / m.weight;
+    thin.push_back(p);
+  }
+  return thin;
+}
+
+// Onto the line through the neighbours: only across it, so that lines keep their ends.
+std::vector<MappedPoint> MoveOntoLines(const std::vector<MappedPoint>& points,
+                                       const LineThinningOptions& options, int threads) {
+  const PointCells cells(points, options.reach_m);
+  std::vector<MappedPoint> moved = points;
+  ForEachPoint(points.size(), threads, [&](std::size_t k) {
+    const MappedPoint& own = points[k];
     // No farther aside than what the errors allow: beside a line there may be another.
     const double aside = std::clamp(2.5 * own.sigma, options.voxel_m, options.reach_m);
     Eigen::Vector3d off_sum = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::Zero();
@@ -148,19 +148,32 @@ std::vector<MappedPoint> ThinToLines(const std::vector<MappedPoint>& points,
     moved[k].position = own.position + off_sum / weight;
     moved[k].direction = direction.normalized();
   });
-  // Neighbours that have become one.
+  return moved;
+}
+
+// Of neighbours that have become one, the best.
+std::vector<MappedPoint> BestOfVoxels(const std::vector<MappedPoint>& points, double voxel_m) {
   std::unordered_map<CellKey, std::size_t> places;
-  std::vector<MappedPoint> lines;
-  for (const MappedPoint& p : moved) {
-    const CellKey key = Key(CellOf(p.position, options.voxel_m), MainDirection(p.direction));
-    const auto [it, fresh] = places.emplace(key, lines.size());
+  std::vector<MappedPoint> best;
+  for (const MappedPoint& p : points) {
+    const CellKey key = Key(CellOf(p.position, voxel_m), MainDirection(p.direction));
+    const auto [it, fresh] = places.emplace(key, best.size());
     if (fresh) {
-      lines.push_back(p);
-    } else if (p.sigma < lines[it->second].sigma) {
-      lines[it->second] = p;
+      best.push_back(p);
+    } else if (p.sigma < best[it->second].sigma) {
+      best[it->second] = p;
     }
   }
-  return lines;
+  return best;
+}
+
+}  // namespace
+
+std::vector<MappedPoint> ThinToLines(const std::vector<MappedPoint>& points,
+                                     const LineThinningOptions& options, int threads) {
+  // First to voxels: what is left of it is few enough to look at neighbours.
+  const std::vector<MappedPoint> thin = ThinToVoxels(points, options.voxel_m);
+  return BestOfVoxels(MoveOntoLines(thin, options, threads), options.voxel_m);
 }
 
 std::vector<MappedPoint> DropLonePoints(const std::vector<MappedPoint>& points,

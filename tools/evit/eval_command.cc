@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "common/evaluation/consistency.h"
@@ -63,65 +64,88 @@ void PrintCell(const TrajectoryError& e) {
   }
 }
 
-void Evaluate(const EvalOptions& o) {
-  const Trajectory truth = ReadTrajectory(o.truth), estimate = ReadTrajectory(o.estimate);
-  const TrajectoryError whole = AbsoluteError(truth, estimate, Alignment::kNone);
-  if (!whole.scored())
-    throw std::runtime_error(o.estimate + " against " + o.truth + ": " + TooFewPairsText(truth, estimate));
-  const std::string unscored = UnscoredText(truth, estimate);
-  const TrajectoryError relative = RelativeError(truth, estimate, kMicrosPerSecond);
-  Consistency consistency;
-  if (!o.covariance.empty()) {
-    consistency = ConsistencyOf(truth, estimate, ReadCovariances(o.covariance));
-    if (consistency.pose.n == 0) {
-      throw std::runtime_error(o.covariance + " has no covariance for the poses of " + o.estimate +
-                               "; are they from the same run?");
-    }
-    if (!o.plot.empty()) pictures::PlotConsistency(o.plot, ConsistencyText(consistency), consistency);
+// What an estimate is worth against a truth.
+struct Evaluation {
+  Trajectory truth, estimate;
+  TrajectoryError whole, relative;  // without alignment; over 1 s
+  std::string unscored;             // parts of the run that are not, and why; may be empty
+  std::optional<Consistency> consistency;
+};
+
+Evaluation Evaluate(const EvalOptions& o) {
+  Evaluation e;
+  e.truth = ReadTrajectory(o.truth);
+  e.estimate = ReadTrajectory(o.estimate);
+  e.whole = AbsoluteError(e.truth, e.estimate, Alignment::kNone);
+  if (!e.whole.scored())
+    throw std::runtime_error(o.estimate + " against " + o.truth + ": " +
+                             TooFewPairsText(e.truth, e.estimate));
+  e.unscored = UnscoredText(e.truth, e.estimate);
+  e.relative = RelativeError(e.truth, e.estimate, kMicrosPerSecond);
+  if (o.covariance.empty()) return e;
+  e.consistency = ConsistencyOf(e.truth, e.estimate, ReadCovariances(o.covariance));
+  if (e.consistency->pose.n == 0) {
+    throw std::runtime_error(o.covariance + " has no covariance for the poses of " + o.estimate +
+                             "; are they from the same run?");
   }
-  if (o.json) {
-    nlohmann::json out{{"truth", o.truth},
-                       {"estimate", o.estimate},
-                       {"coverage", whole.coverage},
-                       {"poses", estimate.size()},
-                       {"not_scored", unscored}};
-    if (!o.covariance.empty()) out["consistency"] = ToJson(consistency);
-    for (const Row& row : kRows) {
-      nlohmann::json& j = out["ate"][row.name];
-      j["all"] = ToJson(AbsoluteError(truth, estimate, row.alignment));
-      for (const int percent : {30, 50, 100}) {
-        j[std::to_string(percent) + "%"] =
-            ToJson(MilestoneError(truth, estimate, row.alignment, percent / 100.0));
-      }
+  return e;
+}
+
+void PrintJson(const EvalOptions& o, const Evaluation& e) {
+  nlohmann::json out{{"truth", o.truth},
+                     {"estimate", o.estimate},
+                     {"coverage", e.whole.coverage},
+                     {"poses", e.estimate.size()},
+                     {"not_scored", e.unscored}};
+  if (e.consistency) out["consistency"] = ToJson(*e.consistency);
+  for (const Row& row : kRows) {
+    nlohmann::json& j = out["ate"][row.name];
+    j["all"] = ToJson(AbsoluteError(e.truth, e.estimate, row.alignment));
+    for (const int percent : {30, 50, 100}) {
+      j[std::to_string(percent) + "%"] =
+          ToJson(MilestoneError(e.truth, e.estimate, row.alignment, percent / 100.0));
     }
-    out["rpe_1s"] = ToJson(relative);
-    std::printf("%s\n", out.dump(2).c_str());
-    return;
   }
-  std::printf("%d pairs, %.0f %% of the truth's time reached\n", whole.n_pairs, 100 * whole.coverage);
-  if (!unscored.empty()) std::printf("%s\n", unscored.c_str());
+  out["rpe_1s"] = ToJson(e.relative);
+  std::printf("%s\n", out.dump(2).c_str());
+}
+
+void PrintText(const Evaluation& e) {
+  std::printf("%d pairs, %.0f %% of the truth's time reached\n", e.whole.n_pairs, 100 * e.whole.coverage);
+  if (!e.unscored.empty()) std::printf("%s\n", e.unscored.c_str());
   std::printf("\n");
   std::printf("ATE RMSE, cm / deg  %16s  %16s  %16s  %16s\n", "all", "30 %", "50 %", "100 %");
   for (const Row& row : kRows) {
     std::printf("  %-16s", row.name);
-    PrintCell(AbsoluteError(truth, estimate, row.alignment));
+    PrintCell(AbsoluteError(e.truth, e.estimate, row.alignment));
     for (const double share : {0.3, 0.5, 1.0})
-      PrintCell(MilestoneError(truth, estimate, row.alignment, share));
+      PrintCell(MilestoneError(e.truth, e.estimate, row.alignment, share));
     std::printf("\n");
   }
-  if (!AbsoluteError(truth, estimate, Alignment::kUmeyama).oriented) {
+  if (!AbsoluteError(e.truth, e.estimate, Alignment::kUmeyama).oriented) {
     std::printf(
         "no orientation error after an alignment by positions: they lie on a straight line, or on one spot, "
         "within %.0f cm, and leave the turn about it open\n",
         100 * TrajectoryError::kMinSpread);
   }
-  std::printf("\nlargest error (no alignment): %.2f cm, %.2f deg\n", 100 * whole.position_max,
-              kDegreesPerRadian * whole.orientation_max);
-  if (relative.scored()) {
-    std::printf("RPE over 1 s: %.2f cm, %.2f deg\n", 100 * relative.position_rmse,
-                kDegreesPerRadian * relative.orientation_rmse);
+  std::printf("\nlargest error (no alignment): %.2f cm, %.2f deg\n", 100 * e.whole.position_max,
+              kDegreesPerRadian * e.whole.orientation_max);
+  if (e.relative.scored()) {
+    std::printf("RPE over 1 s: %.2f cm, %.2f deg\n", 100 * e.relative.position_rmse,
+                kDegreesPerRadian * e.relative.orientation_rmse);
   }
-  if (!o.covariance.empty()) std::printf("%s\n", ConsistencyText(consistency).c_str());
+  if (e.consistency) std::printf("%s\n", ConsistencyText(*e.consistency).c_str());
+}
+
+void RunEval(const EvalOptions& o) {
+  const Evaluation evaluation = Evaluate(o);
+  if (evaluation.consistency && !o.plot.empty())
+    pictures::PlotConsistency(o.plot, ConsistencyText(*evaluation.consistency), *evaluation.consistency);
+  if (o.json) {
+    PrintJson(o, evaluation);
+  } else {
+    PrintText(evaluation);
+  }
 }
 
 }  // namespace
@@ -139,7 +163,7 @@ void AddEvalCommand(CLI::App* app) {
   eval->footer(
       "Example: evit eval --truth desk/truth.tum --estimate result/trajectory.tum --covariance "
       "result/covariance.csv");
-  eval->callback([o] { Evaluate(*o); });
+  eval->callback([o] { RunEval(*o); });
 }
 
 }  // namespace evit::commands

@@ -9,6 +9,8 @@ namespace evit::pictures {
 /// Colours of Okabe and Ito (B, G, R), which all people can tell apart: vermillion, green, blue, purple.
 inline const cv::Scalar kSafeColors[4] = {{0, 94, 213}, {115, 158, 0}, {178, 114, 0}, {167, 121, 204}};
 
+constexpr double kLongestGap = 0.3;  // s: lines over time are broken where there is nothing for longer
+
 /// One curve or cloud of points in a chart.
 struct Series {
   std::string name;  // in the legend; empty: not listed

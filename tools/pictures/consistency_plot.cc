@@ -9,7 +9,6 @@
 namespace evit::pictures {
 namespace {
 
-constexpr double kGap = 0.3;  // s: longer ones are not bridged
 const cv::Scalar kErrorColour(150, 50, 130), kBound(170, 170, 170);
 const char* const kNames[6] = {"position x (map)",  "position y (map)",  "position z (map)",
                                "rotation x (body)", "rotation y (body)", "rotation z (body)"};
@@ -52,8 +51,8 @@ void PlotConsistency(const std::string& path, const std::string& title, const Co
     const double unit = k < 3 ? 100 : kDegreesPerRadian;
     Chart chart{kNames[k], "time [s]", k < 3 ? "[cm]" : "[deg]", {}, false, false};
     if (errors.empty()) chart.title += ": no ground truth";
-    Series error{"error", kErrorColour, {}, {}, true, kGap};
-    Series above{"2 sigma", kBound, {}, {}, true, kGap}, below{"", kBound, {}, {}, true, kGap};
+    Series error{"error", kErrorColour, {}, {}, true, kLongestGap};
+    Series above{"2 sigma", kBound, {}, {}, true, kLongestGap}, below{"", kBound, {}, {}, true, kLongestGap};
     for (const PoseError& row : errors) {
       error.x.push_back(ToSeconds(row.t - t0));
       error.y.push_back(unit * row.error[k]);
