@@ -13,6 +13,13 @@ namespace {
 constexpr hsize_t kChunk = 1 << 17;  // elements: half a megabyte of stamps
 constexpr unsigned kLevel = 1;       // fast; higher levels save few per cent on events
 
+// Of a dataset: HDF5 would note when it was made, and the same events would give another file each time.
+H5Handle Undated() {
+  H5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(properties.get(), 0);
+  return properties;
+}
+
 }  // namespace
 
 // One growing, compressed dataset.
@@ -22,7 +29,7 @@ class Column {
     memory_type_ = memory_type;
     const hsize_t none = 0, unlimited = H5S_UNLIMITED;
     const H5Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose);
-    const H5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const H5Handle properties = Undated();
     H5Pset_chunk(properties.get(), 1, &kChunk);
     H5Pset_filter(properties.get(), kZstdFilter, H5Z_FLAG_MANDATORY, 1, &kLevel);
     dataset_ = H5Handle(H5Dcreate2(file, name, type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
@@ -79,9 +86,9 @@ EventFileWriter::EventFileWriter(const std::string& path, Utime t_offset)
   w.index.Create(w.file.get(), "ms_to_idx", H5T_STD_U64LE, H5T_NATIVE_UINT64);
   const hsize_t one = 1;
   const H5Handle space(H5Screate_simple(1, &one, nullptr), H5Sclose);
-  const H5Handle offset(
-      H5Dcreate2(w.file.get(), "t_offset", H5T_STD_I64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-      H5Dclose);
+  const H5Handle offset(H5Dcreate2(w.file.get(), "t_offset", H5T_STD_I64LE, space.get(), H5P_DEFAULT,
+                                   Undated().get(), H5P_DEFAULT),
+                        H5Dclose);
   H5Dwrite(offset.get(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &t_offset);
 }
 
