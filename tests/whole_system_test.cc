@@ -265,6 +265,22 @@ TEST_F(WholeSystemTest, ASecondSenderThatComesLaterIsTold) {
   EXPECT_TRUE(fs::exists(Path("out/report.json")));  // what it has is kept
 }
 
+TEST_F(WholeSystemTest, AnInterruptedCalibrationLeavesNothingBehind) {
+  const std::string begin = kEvit + " calibrate --log " + kLogs + "sample.lcmlog";
+  Result calibration;
+  std::thread running([&] {
+    calibration = Shell("XDG_RUNTIME_DIR=" + folder_.string() + " " + begin + " --map " + kLogs +
+                        "sample_map.pcd --rig " + kLogs + "rig.textproto --initial-from " + kLogs +
+                        "sample_truth.tum --out " + Path("rig.textproto"));
+  });
+  EXPECT_TRUE(Eventually([&] { return fs::exists(Path("rig.textproto.evt/window_optimizer.log")); }));
+  Shell("pkill -INT -f '^" + begin + " .*" + folder_.string() + "/'");
+  running.join();
+  EXPECT_EQ(calibration.code, 130) << calibration.output;
+  EXPECT_FALSE(fs::exists(Path("rig.textproto"))) << calibration.output;
+  EXPECT_FALSE(fs::exists(Path("rig.textproto.evt"))) << calibration.output;
+}
+
 // The server that all messages go through dies while a run is at work.
 TEST_F(WholeSystemTest, ATcpqServerThatGoesAwayEndsTheRunWithItsName) {
   test::TcpqServer server;

@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
@@ -33,6 +34,24 @@ int ParseInt(const std::string& url, const std::string& part, const std::string&
                              std::to_string(low) + " to " + std::to_string(high));
   }
   return value;
+}
+
+// "KEY=VALUE&..." of a udpm URL. liblcm would take "ttl=abc" for 0, and only warn of a key it does not know.
+void ParseOptions(const std::string& url, const std::string& options, LcmUrl* result) {
+  for (std::size_t begin = 0, end = 0; begin < options.size(); begin = end + 1) {
+    end = std::min(options.find('&', begin), options.size());
+    const std::string option = options.substr(begin, end - begin);
+    const std::string key = option.substr(0, option.find('='));
+    const std::string value = option.substr(std::min(key.size() + 1, option.size()));
+    if (key == "ttl") {
+      (void)ParseInt(url, key, value, 0, 255);
+    } else if (key == "recv_buf_size") {
+      result->receive_buffer = ParseInt(url, key, value, 1, 1 << 30);
+    } else if (!option.empty()) {
+      throw std::runtime_error("LCM URL \"" + url + "\": \"" + key +
+                               "\" is no option of udpm; it has ttl and recv_buf_size");
+    }
+  }
 }
 
 class Socket {
@@ -75,12 +94,7 @@ LcmUrl ParseLcmUrl(const std::string& url) {
     throw std::runtime_error("LCM URL \"" + url + "\": \"" + result.group +
                              "\" is not an IPv4 multicast address (224.0.0.0 to 239.255.255.255)");
   }
-  const std::size_t key = rest.find(kBufferKey);
-  if (key != std::string::npos) {
-    const std::size_t begin = key + std::strlen(kBufferKey);
-    const std::string value = rest.substr(begin, rest.find_first_of("&?", begin) - begin);
-    result.receive_buffer = ParseInt(url, "recv_buf_size", value, 1, 1 << 30);
-  }
+  if (address.size() < rest.size()) ParseOptions(url, rest.substr(address.size() + 1), &result);
   return result;
 }
 

@@ -18,8 +18,8 @@ struct LcmUrl {
   int receive_buffer = 0;  // bytes asked for in the URL; 0: none
 };
 
-/// Throws std::runtime_error, naming the part, where a udpm URL is malformed or the group is not a multicast
-/// address.
+/// Throws std::runtime_error, naming the part, where a udpm URL is malformed, the group is not a multicast
+/// address or an option has another value or name than liblcm takes.
 LcmUrl ParseLcmUrl(const std::string& url);
 
 /// The same URL with recv_buf_size set to `bytes`, replacing what it says.

@@ -1,11 +1,14 @@
 #include "common/bus/lcm_url.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
 namespace evit {
 namespace {
+
+using ::testing::HasSubstr;
 
 TEST(LcmUrl, NamesGroupHostPortAndReceiveBuffer) {
   const LcmUrl url = ParseLcmUrl("udpm://239.1.2.3:7000?ttl=0&recv_buf_size=100000");
@@ -31,6 +34,23 @@ TEST(LcmUrl, RefusesWhatIsMalformed) {
         "udpm://239.1.2.3:70000", "udpm://?recv_buf_size=4M", "udpm://?recv_buf_size=-1"}) {
     EXPECT_THROW(ParseLcmUrl(url), std::runtime_error) << url;
   }
+}
+
+TEST(LcmUrl, NamesTheOptionThatIsWrong) {
+  const auto complaint = [](const std::string& url) -> std::string {
+    try {
+      ParseLcmUrl(url);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(complaint("udpm://239.1.2.3:7000?ttl=abc"), HasSubstr("ttl \"abc\""));
+  EXPECT_THAT(complaint("udpm://?recv_buf_size=9&ttl=256"), HasSubstr("ttl \"256\""));
+  EXPECT_THAT(complaint("udpm://?ttl"), HasSubstr("ttl \"\""));
+  EXPECT_THAT(complaint("udpm://?tll=1"), HasSubstr("\"tll\""));
+  EXPECT_THAT(complaint("udpm://?ttl=0?recv_buf_size=9"), HasSubstr("ttl"));
+  EXPECT_EQ(complaint("udpm://?ttl=255&recv_buf_size=9&"), "");
 }
 
 TEST(LcmUrl, SetsTheReceiveBuffer) {

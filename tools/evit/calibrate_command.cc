@@ -1,8 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "common/config/rig_file.h"
 #include "common/config/settings_file.h"
@@ -42,7 +44,14 @@ std::string Track(CalibrateOptions* o) {
   job.command = "evit calibrate";
   std::printf("tracking the camera by its events alone\n");
   std::fflush(stdout);
-  if (const int code = run::Run(job); code == 130) throw CLI::RuntimeError(code);
+  const bool there_before = std::filesystem::exists(job.out);
+  if (const int code = run::Run(job); code == 130) {
+    // A part of the camera's motion is of no use; the folder goes unless it was there.
+    std::error_code ignored;
+    if (!there_before && std::filesystem::remove_all(job.out, ignored) > 0)
+      std::printf("interrupted: %s is removed again\n", job.out.c_str());
+    throw CLI::RuntimeError(code);
+  }
   return job.out + "/trajectory.tum";
 }
 

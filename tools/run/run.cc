@@ -68,8 +68,9 @@ int Run(const RunJob& job) {
   while (bus->Poll(50) > 0) {  // each service's last STATUS
   }
   if (job.play.loops > 1) memory.Write(job.out);
-  if (bus_log != nullptr) bus_log->Close();
-  return WriteResults(job, inputs, recorder, pipeline, outcome);
+  const int code = WriteResults(job, inputs, recorder, pipeline, outcome);
+  if (bus_log != nullptr) bus_log->Close();  // a full disk costs the log, not the results
+  return code;
 }
 
 }  // namespace evit::run
