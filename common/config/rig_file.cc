@@ -49,9 +49,19 @@ SE3 ToSE3(const RigText& rig, const config::Transform& t, const std::string& nam
   return SE3(m);
 }
 
+// As of an Azure Kinect, or of OpenCV's CALIB_RATIONAL_MODEL.
+constexpr char kNoRational[] =
+    "rational distortion (k1 to k6) is not supported; calibrate with \"plumb_bob\" or \"equidistant\", or "
+    "undistort the "
+    "pictures (OpenCV's undistort) and give the intrinsics of the undistorted ones with distortion: [0, 0, "
+    "0, 0]";
+
 Camera ToCamera(const RigText& rig) {
   const config::Camera& c = rig.message.camera();
   Camera camera;
+  const bool rational =
+      c.model().rfind("rational", 0) == 0 || (c.distortion_size() > 5 && c.model() != "equidistant");
+  rig.Require(!rational, "camera.model", kNoRational);
   rig.Require(CameraModelFromName(c.model(), &camera.model), "camera.model",
               "\"" + c.model() + "\" is not known; use \"plumb_bob\" or \"equidistant\"");
   const double offset = c.time_offset_us();

@@ -60,6 +60,9 @@ TEST_F(RigReading, WrongTypesAreNamedWithWhatIsAllowed) {
 
 TEST_F(RigReading, ValuesOutOfRangeAreNamedWithTheirLine) {
   ExpectEditRefused("plumb_bob", "fisheye", ":6", {"camera.model", "fisheye", "equidistant"});
+  ExpectEditRefused("plumb_bob", "rational_polynomial", ":6", {"camera.model", "k1 to k6", "undistort"});
+  ExpectEditRefused(", -0.001031, 0.0]", ", -0.001031, 0.0, 0.4, -2.5, 1.5]", ":6",
+                    {"camera.model", "k1 to k6", "undistort"});
   ExpectEditRefused("fx: 327.32749", "fx: -1", ":9", {"camera.fx", "-1", "above 0 px"});
   ExpectEditRefused("fx: 327.32749", "fx: nan", ":9", {"camera.fx"});
   ExpectEditRefused(", -0.001031, 0.0]", "]", ":13", {"camera.distortion", "4 or 5"});

@@ -74,7 +74,11 @@ void Finish(std::vector<PosedEdges> views, const std::vector<KeyDepths>& depths,
   for (const KeyDepths& key : depths) map->measured += key.depths.size();
   progress(0.65, "fusing views");
   std::vector<MappedPoint> points = FuseDepths(views, depths, options.fusion, options.threads);
-  map->confirmed = points.size();
+  // Stereo asked several views; a depth of a sensor that is still of one is so for want of another that
+  // looks.
+  map->alone = static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [](const MappedPoint& p) { return p.views < 2; }));
+  map->confirmed = points.size() - map->alone;
   points = ThinToLines(points, options.thinning, options.threads);
   progress(0.75, "fitting points and poses to all views");
   map->adjustment = EdgeAdjustment(&views, options.adjustment, options.threads).Run(&points);

@@ -29,9 +29,14 @@ struct BuiltMap {
   double typical_depth_m = 0;
   double event_lag_px = 0;  // that was put right before
   int key_views = 0;
-  std::size_t tried = 0;      // edges of key views whose depth was looked for; 0: a sensor or events told it
-  std::size_t measured = 0;   // depths
-  std::size_t confirmed = 0;  // of them, by other views
+  std::size_t tried = 0;     // edges of key views whose depth was looked for; 0: a sensor or events told it
+  std::size_t measured = 0;  // depths
+  std::size_t alone = 0;     // of them, where no other view looks (of a sensor's depths; others do not count)
+  std::size_t confirmed = 0;  // of the rest, by other views
+  /// 0..1: of the depths that other views could confirm, those they do.
+  double ConfirmedShare() const {
+    return measured > alone ? static_cast<double>(confirmed) / static_cast<double>(measured - alone) : 0;
+  }
   AdjustmentSummary adjustment;
 };
 

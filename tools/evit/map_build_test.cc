@@ -160,6 +160,19 @@ TEST_F(MapOfEventsTest, LiesOnTheEdges) {
   const auto json = nlohmann::json::parse(compared.output);
   EXPECT_EQ(json["points"], map.points.size());
   EXPECT_LT(json["median_m"].get<double>(), 0.015);
+  // All of the wall is 1 to 3 m from the path, nothing 5 m.
+  const auto in_range =
+      nlohmann::json::parse(Map("compare " + File("events.pcd") + " " + File("map.pcd") + " --poses " +
+                                File("body.tum") + " --min-distance 1 --max-distance 3 --json")
+                                .output);
+  EXPECT_EQ(in_range["points"], map.points.size());
+  EXPECT_EQ(in_range["median_m"], json["median_m"]);
+  EXPECT_GT(in_range["median_share"].get<double>(), json["median_m"].get<double>() / 3);
+  EXPECT_LT(in_range["median_share"].get<double>(), json["median_m"].get<double>());
+  const Outcome far = Map("compare " + File("events.pcd") + " " + File("map.pcd") + " --poses " +
+                          File("body.tum") + " --min-distance 5");
+  EXPECT_EQ(far.code, 1);
+  EXPECT_THAT(far.output, HasSubstr("holds no points 5 to 1000 m from the path"));
   ASSERT_EQ(Map("transform " + File("events.pcd") +
                 " --transform '1 0 0 0 0 1 0 0.05 0 0 1 0 0 0 0 1' --out " + File("moved.pcd"))
                 .code,

@@ -186,6 +186,27 @@ TEST_F(MapInputsTest, TumsLayoutOfRgbAndDepth) {
   EXPECT_TRUE(far.code != 0 || far.output.find("warning") != std::string::npos) << far.output;
 }
 
+// Each depth looks right by itself: only other views tell that a pose is wrong.
+TEST_F(MapInputsTest, DepthWithPosesOfAnotherTimeOrWithNothingInItIsNamed) {
+  Trajectory shuffled;
+  for (std::size_t k = 0; k < painted_->pictures.size(); ++k) {
+    const StampedPose& pose = painted_->poses[k];
+    const cv::Mat depth = painted_->scene.Depth(painted_->camera, pose.pose, 1000);
+    Write("grey/" + StampName(pose.t), PaintedPictures::Png(painted_->pictures[k]));
+    Write("depth/" + StampName(pose.t), PaintedPictures::Png(depth));
+    Write("empty/" + StampName(pose.t), PaintedPictures::Png(cv::Mat::zeros(depth.size(), depth.type())));
+    shuffled.push_back({pose.t, painted_->poses[(7 * k + 3) % painted_->poses.size()].pose});
+  }
+  const std::string grey = "--images " + File("grey") + Calibrated();
+  ExpectGoodMap(Build(grey + " --depth " + File("depth")));
+  ExpectRefused(Build(grey + " --depth " + File("empty")),
+                "pictures show edges with a depth, a map needs three");
+  WriteTum(File("poses.tum"), shuffled);
+  const test::ProgramOutcome wrong = Build(grey + " --depth " + File("depth"));
+  EXPECT_TRUE(wrong.code != 0 || wrong.output.find("warning:") != std::string::npos) << wrong.output;
+  EXPECT_THAT(wrong.output, testing::ContainsRegex("clock(, order)? (or|and) frame"));
+}
+
 // VECtor's Kinect: a depth camera of its own beside the grey one, both on a body whose poses are known.
 TEST_F(MapInputsTest, DepthOfAnotherCamera) {
   const SE3 T_body_grey(ExpSO3({0.3, -0.2, 0.1}), {0.1, 0, 0.05});

@@ -65,7 +65,7 @@ std::string DoubtOf(const BuiltMap& built) {
   constexpr double kFewFound = 0.15, kMuchMoved = 0.005;  // of the edges tried; m
   char text[400] = "";
   const double found = built.tried > 0 ? static_cast<double>(built.measured) / built.tried : 1;
-  const double confirmed = built.measured > 0 ? static_cast<double>(built.confirmed) / built.measured : 0;
+  const double confirmed = built.ConfirmedShare();
   if (confirmed < 0.5) {
     std::snprintf(
         text, sizeof text,
@@ -125,10 +125,8 @@ std::string SummaryOf(const std::string& path, const BuiltMap& built) {
       "  fit      points %.2f px (rms) off the edges in all views, %.2f before; poses moved by %.1f mm, "
       "%.2f deg (median)\n",
       path.c_str(), built.points.size(), 1e3 * MedianSigma(built), built.typical_depth_m, built.poses.size(),
-      built.key_views, built.measured,
-      built.measured > 0 ? 100.0 * static_cast<double>(built.confirmed) / built.measured : 0.0,
-      built.adjustment.rms_after_px, built.adjustment.rms_before_px, 1e3 * built.adjustment.moved_m,
-      built.adjustment.turned_deg);
+      built.key_views, built.measured, 100 * built.ConfirmedShare(), built.adjustment.rms_after_px,
+      built.adjustment.rms_before_px, 1e3 * built.adjustment.moved_m, built.adjustment.turned_deg);
   std::string summary = text;
   if (built.event_lag_px != 0) {
     std::snprintf(text, sizeof text, "  events   %.2f px behind their edges: put right\n",

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <unordered_map>
 #include <vector>
+
+#include "common/text/format_text.h"
 
 namespace evit::mapping {
 namespace {
@@ -58,19 +61,47 @@ class PointGrid {
 
 }  // namespace
 
-MapDistance DistanceBetween(const PointMap& from, const PointMap& to, double limit_m, double reach_m) {
+PathDistance::PathDistance(const Trajectory& path) {
+  constexpr float kStep = 0.02F;  // m
+  for (const StampedPose& pose : path) {
+    const Eigen::Vector3f place = pose.pose.p.cast<float>();
+    if (places_.empty() || (place - places_.back()).norm() >= kStep) places_.push_back(place);
+  }
+}
+
+double PathDistance::Of(const Eigen::Vector3f& p) const {
+  float best = std::numeric_limits<float>::max();
+  for (const Eigen::Vector3f& place : places_) best = std::min(best, (place - p).squaredNorm());
+  return std::sqrt(best);
+}
+
+PointMap PathDistance::Between(const PointMap& map, double min_m, double max_m) const {
+  PointMap part;
+  for (const Eigen::Vector3f& p : map.points) {
+    const double distance = Of(p);
+    if (distance >= min_m && distance <= max_m) part.points.push_back(p);
+  }
+  return part;
+}
+
+MapDistance DistanceBetween(const PointMap& from, const PointMap& to, const PathDistance* path,
+                            double limit_m, double reach_m) {
   const PointGrid grid(to, limit_m);
-  std::vector<float> distances;
+  std::vector<float> distances, shares;
   distances.reserve(from.points.size());
-  for (const Eigen::Vector3f& p : from.points)
+  for (const Eigen::Vector3f& p : from.points) {
     distances.push_back(grid.Nearest(p, static_cast<float>(reach_m)));
+    if (path != nullptr) shares.push_back(distances.back() / static_cast<float>(path->Of(p)));
+  }
   std::sort(distances.begin(), distances.end());
+  std::sort(shares.begin(), shares.end());
   MapDistance result;
   result.points = distances.size();
   result.median_m = distances[distances.size() / 2];
   result.p95_m = distances[distances.size() * 95 / 100];
   const auto beyond = std::upper_bound(distances.begin(), distances.end(), static_cast<float>(limit_m));
   result.beyond = static_cast<double>(distances.end() - beyond) / static_cast<double>(distances.size());
+  if (!shares.empty()) result.median_share = shares[shares.size() / 2];
   return result;
 }
 
@@ -80,19 +111,27 @@ std::string CompareText(const std::string& map, const MapDistance& exact, const 
   if (json) {
     std::snprintf(text, sizeof text,
                   "{\n  \"points\": %zu,\n  \"median_m\": %.6f,\n  \"p95_m\": %.6f,\n  \"beyond\": %.5f,\n"
-                  "  \"limit_m\": %g,\n  \"reference_points\": %zu,\n  \"missing\": %.5f\n}\n",
-                  exact.points, exact.median_m, exact.p95_m, exact.beyond, limit_m, complete.points,
-                  complete.beyond);
+                  "  \"median_share\": %.6f,\n  \"limit_m\": %g,\n  \"reference_points\": %zu,\n  "
+                  "\"missing\": %.5f\n}\n",
+                  exact.points, exact.median_m, exact.p95_m, exact.beyond, exact.median_share, limit_m,
+                  complete.points, complete.beyond);
     return text;
   }
+  const std::string share =
+      exact.median_share > 0
+          ? FormatText("  distance  median %.2f %% of the point's distance from the path\n",
+                       100 * exact.median_share)
+          : "";
   std::snprintf(
       text, sizeof text,
       "%s to %s\n"
       "  points    %zu: median %.1f mm from the nearest of the reference, 95 %% within %.1f mm, %.1f %% "
       "beyond %.0f mm\n"
+      "%s"
       "  missing   %.1f %% of the reference's %zu points have none within %.0f mm\n",
       map.c_str(), reference.c_str(), exact.points, 1e3 * exact.median_m, 1e3 * exact.p95_m,
-      100 * exact.beyond, 1e3 * limit_m, 100 * complete.beyond, complete.points, 1e3 * limit_m);
+      100 * exact.beyond, 1e3 * limit_m, share.c_str(), 100 * complete.beyond, complete.points,
+      1e3 * limit_m);
   return text;
 }
 

@@ -41,8 +41,8 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-// A map from every second of 60 frames of a HoloLens, 20 cm and 10 degrees apart: the edges of the others, found
-// as the map's own are, lie on it.
+// A map from every second of 60 frames of a HoloLens, 20 cm and 10 degrees apart: the edges of the others,
+// found as the map's own are, lie on it.
 TEST(ReadRgbdOfARealSensor, MapShowsTheEdgesOfViewsLeftOut) {
   const std::string path = test::RecordingsPath("hololens");
   if (!std::filesystem::exists(path + "/poses.txt"))
