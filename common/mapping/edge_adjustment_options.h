@@ -2,6 +2,7 @@
 
 namespace evit {
 
+/// Of EdgeAdjustment: what is known beforehand, and what a point has to show to be kept.
 struct EdgeAdjustmentOptions {
   int rounds = 3;
   bool move_poses = true;

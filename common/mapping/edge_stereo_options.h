@@ -2,6 +2,7 @@
 
 namespace evit {
 
+/// Of EdgeStereo: the depths that are tried, what is known of edges, and what makes a measurement.
 struct EdgeStereoOptions {
   double min_depth_m = 0.2, max_depth_m = 10;
   int min_views = 4;             // that agree on a depth

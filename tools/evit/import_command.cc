@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "common/imu/standard_gravity.h"
-#include "common/service/stop_signals.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/import_options.h"
+#include "tools/evit/interruptible.h"
 #include "tools/evit/options.h"
 #include "tools/evit/output_names.h"
-#include "tools/terminal/progress_bar.h"
 
 namespace evit::commands {
 namespace {
@@ -62,22 +61,10 @@ void ImportOptions::Apply(formats::ImportTarget* target) const {
 void RunImport(const std::string& label, const formats::ImportTarget& target, const std::string& no_truth,
                const std::function<formats::ImportSummary(const std::function<void(double)>&)>& work) {
   formats::ImportSummary s;
-  RequireLogOutput("--out", target.out);  // said before a long recording is read
-  const StopSignals signals;
-  std::signal(SIGPIPE, SIG_IGN);  // with `| head` the log is still written whole
-  try {
-    std::fprintf(stderr, "reading %s\n", label.c_str());  // a bag is gone through before the first event
-    terminal::ProgressBar bar("importing " + label);
-    s = work([&](double share) {
-      // Thrown, so that all that was begun is taken away on the way out.
-      if (signals.received()) throw std::runtime_error("interrupted");
-      bar.Show(share);
-    });
-  } catch (const std::runtime_error&) {
-    if (!signals.received()) throw;
-    std::fprintf(stderr, "evit import: interrupted; nothing was written\n");
-    throw CLI::RuntimeError(130);
-  }
+  RequireLogOutput("--out", target.out);                // said before a long recording is read
+  std::signal(SIGPIPE, SIG_IGN);                        // with `| head` the log is still written whole
+  std::fprintf(stderr, "reading %s\n", label.c_str());  // a bag is gone through before the first event
+  RunInterruptibly("evit import", "importing " + label, [&](const auto& report) { s = work(report); });
   std::printf(
       "%s: %.1f s, %lld events in %lld packets (%.2f million/s), %lld IMU samples, %lld truth poses\n",
       target.out.c_str(), s.seconds, static_cast<long long>(s.n_events), static_cast<long long>(s.n_packets),

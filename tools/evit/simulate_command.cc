@@ -8,14 +8,13 @@
 #include "common/config/rig_file.h"
 #include "common/geometry/degrees.h"
 #include "common/geometry/se3.h"
-#include "common/service/stop_signals.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/data_file.h"
+#include "tools/evit/interruptible.h"
 #include "tools/evit/options.h"
 #include "tools/evit/simulate_options.h"
 #include "tools/simulation/load_motion.h"
 #include "tools/simulation/simulator.h"
-#include "tools/terminal/progress_bar.h"
 
 namespace evit::commands {
 namespace {
@@ -50,21 +49,10 @@ void Run(const SimulateOptions& options) {
   settings.command = CommandLineOfThis();
   const std::string rig = options.rig().empty() ? DataFile("config/vector/rig.textproto") : options.rig();
   simulation::SimulationSummary summary;
-  const StopSignals signals;
-  try {
-    terminal::ProgressBar bar("simulating");
-    summary = simulation::Simulate(settings, LoadRig(rig),
-                                   "simulated, from " + std::filesystem::path(rig).filename().string(),
-                                   [&](double share) {
-                                     // Thrown, so that all that was begun is taken away on the way out.
-                                     if (signals.received()) throw std::runtime_error("interrupted");
-                                     bar.Show(share);
-                                   });
-  } catch (const std::runtime_error&) {
-    if (!signals.received()) throw;
-    std::fprintf(stderr, "evit simulate: interrupted; nothing was written\n");
-    throw CLI::RuntimeError(130);
-  }
+  RunInterruptibly("evit simulate", "simulating", [&](const auto& report) {
+    summary = simulation::Simulate(
+        settings, LoadRig(rig), "simulated, from " + std::filesystem::path(rig).filename().string(), report);
+  });
   if (settings.map_only) {
     std::printf("%s: map points %zu of %d views, written to %s\n", summary.name.c_str(), summary.n_map_points,
                 summary.n_map_views, settings.out.c_str());

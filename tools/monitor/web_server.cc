@@ -11,7 +11,6 @@ namespace {
 
 static_assert(Frame::kHead >= LWS_PRE);
 constexpr std::size_t kLongestMessage = 64 << 10;  // bytes, from a client
-constexpr std::size_t kChunk = 32 << 10;           // bytes of a file at a time
 constexpr unsigned kWriteBuffer = 1 << 20;         // bytes
 constexpr int kRounds = 16;                        // of frames at a time: the bus must not wait for long
 constexpr char kHttp[] = "http";
@@ -35,8 +34,7 @@ struct WebServer::Implementation {
   // What libwebsockets keeps for a connection.
   struct Session {
     Client* client;
-    const WebFile* file;
-    std::size_t sent;
+    WebFileTransfer transfer;
   };
 
   Implementation(const Options& o, std::vector<WebFile> f, WebClients* c)
@@ -44,7 +42,6 @@ struct WebServer::Implementation {
 
   static int Callback(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t size);
   int OnRequest(lws* wsi, Session* session, std::string_view path);
-  int SendFile(lws* wsi, Session* session);
   bool MayConnect(lws* wsi) const;
   int OnReceive(lws* wsi, Client* client, std::string_view part);
   int Send(lws* wsi, Client* client);
@@ -80,44 +77,7 @@ int WebServer::Implementation::OnRequest(lws* wsi, Session* session, std::string
     lws_return_http_status(wsi, HTTP_STATUS_NOT_FOUND, nullptr);
     return -1;
   }
-  std::uint8_t buffer[LWS_PRE + 2048];
-  std::uint8_t *at = buffer + LWS_PRE, *const end = buffer + sizeof buffer - 1;
-  // style: plots size their elements themselves.
-  const std::pair<const char*, std::string> headers[] = {
-      {"content-security-policy:",
-       "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; frame-ancestors 'none'; "
-       "base-uri 'none'; form-action 'none'"},
-      {"x-content-type-options:", "nosniff"},
-      {"cache-control:", "no-cache"}};
-  bool ok = lws_add_http_common_headers(wsi, HTTP_STATUS_OK, file->type.c_str(), file->content.size(), &at,
-                                        end) == 0;
-  for (const auto& [name, value] : headers) {
-    ok = ok && lws_add_http_header_by_name(wsi, reinterpret_cast<const std::uint8_t*>(name),
-                                           reinterpret_cast<const std::uint8_t*>(value.data()),
-                                           static_cast<int>(value.size()), &at, end) == 0;
-  }
-  if (!ok || lws_finalize_write_http_header(wsi, buffer + LWS_PRE, &at, end) != 0) return 1;
-  session->file = &*file;
-  session->sent = 0;
-  lws_callback_on_writable(wsi);
-  return 0;
-}
-
-int WebServer::Implementation::SendFile(lws* wsi, Session* session) {
-  if (session->file == nullptr) return 0;
-  const std::string& content = session->file->content;
-  const std::size_t n = std::min(kChunk, content.size() - session->sent);
-  const bool last = session->sent + n == content.size();
-  std::vector<std::uint8_t> buffer(LWS_PRE + n);
-  std::copy_n(content.begin() + static_cast<std::ptrdiff_t>(session->sent), n, buffer.begin() + LWS_PRE);
-  if (lws_write(wsi, buffer.data() + LWS_PRE, n, last ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_HTTP) < 0) return -1;
-  session->sent += n;
-  if (!last) {
-    lws_callback_on_writable(wsi);
-    return 0;
-  }
-  session->file = nullptr;
-  return lws_http_transaction_completed(wsi) != 0 ? -1 : 0;
+  return BeginTransfer(wsi, *file, &session->transfer);
 }
 
 int WebServer::Implementation::OnReceive(lws* wsi, Client* client, std::string_view part) {
@@ -159,7 +119,7 @@ int WebServer::Implementation::Callback(lws* wsi, lws_callback_reasons reason, v
     case LWS_CALLBACK_HTTP:
       return self->OnRequest(wsi, session, text);
     case LWS_CALLBACK_HTTP_WRITEABLE:
-      return self->SendFile(wsi, session);
+      return ContinueTransfer(wsi, &session->transfer);
     case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION: {
       const bool known = std::string_view(lws_get_protocol(wsi)->name) != kHttp;
       return known && self->MayConnect(wsi) ? 0 : -1;

@@ -10,6 +10,7 @@
 
 #include "tools/monitor/frame.h"
 #include "tools/monitor/origin.h"
+#include "tools/monitor/web_file.h"
 
 namespace evit::monitor {
 
@@ -25,11 +26,6 @@ class WebClients {
   virtual void Received(ClientId client, std::string_view message) = 0;
   /// The client can take another frame: the next one, null for none. More come after WebServer::Wake().
   virtual FramePtr Next(ClientId client) = 0;
-};
-
-/// A file that is served: name in the URL without '/', content.
-struct WebFile {
-  std::string name, type, content;
 };
 
 /// HTTP for a fixed list of files, and WebSockets, on one port and in the caller's thread: Service() never

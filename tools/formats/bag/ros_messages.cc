@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/files/load_number.h"
+#include "tools/formats/ros/message_types.h"
 #include "tools/formats/ros/ros_cursor.h"
 
 namespace evit::formats {
@@ -40,31 +41,20 @@ void DecodeEventArray(const std::uint8_t* data, std::size_t size, EventFilter* f
 
 ImuSample DecodeImu(const std::uint8_t* data, std::size_t size) {
   RosCursor message(data, size, false);
-  ImuSample s;
-  s.t = message.Header();
-  message.SkipDoubles(4 + 9, "orientation");
-  message.Doubles(3, s.gyro.data(), "angular_velocity");
-  message.SkipDoubles(9, "angular_velocity_covariance");
-  message.Doubles(3, s.accel.data(), "linear_acceleration");
-  message.SkipDoubles(9, "linear_acceleration_covariance");
+  const ImuSample sample = GetImu(&message);
   RequireEnd(message);
-  return s;
+  return sample;
 }
 
 StampedPose DecodePose(const std::string& type, const std::uint8_t* data, std::size_t size) {
-  const bool odometry = type == "nav_msgs/Odometry", transform = type == "geometry_msgs/TransformStamped";
-  const bool covariance = odometry || type == "geometry_msgs/PoseWithCovarianceStamped";
   RosCursor message(data, size, false);
-  StampedPose s;
-  s.t = message.Header();
-  if (odometry || transform) message.Text("child_frame_id");
-  message.Doubles(3, s.pose.p.data(), transform ? "transform.translation" : "pose.position");
-  message.Doubles(4, s.pose.q.coeffs().data(),  // both x y z w
-                  transform ? "transform.rotation" : "pose.orientation");
-  if (covariance) message.SkipDoubles(36, "pose.covariance");
+  const StampedPose pose = GetPose(type, &message);
+  const bool odometry = type == "nav_msgs/Odometry";
+  if (odometry || type == "geometry_msgs/PoseWithCovarianceStamped")
+    message.SkipDoubles(36, "pose.covariance");
   if (odometry) message.SkipDoubles(6 + 36, "twist");
   RequireEnd(message);
-  return s;
+  return pose;
 }
 
 }  // namespace evit::formats

@@ -38,23 +38,25 @@ EventPacket GetEventPacket(RosCursor message) {
   return packet;
 }
 
-ImuSample GetImu(RosCursor message) {
+ImuSample GetImu(RosCursor* message) {
   ImuSample s;
-  s.t = message.Header();
-  message.SkipDoubles(4 + 9, "orientation");
-  message.Doubles(3, s.gyro.data(), "angular_velocity");
-  message.SkipDoubles(9, "angular_velocity_covariance");
-  message.Doubles(3, s.accel.data(), "linear_acceleration");
-  message.SkipDoubles(9, "linear_acceleration_covariance");
+  s.t = message->Header();
+  message->SkipDoubles(4 + 9, "orientation");
+  message->Doubles(3, s.gyro.data(), "angular_velocity");
+  message->SkipDoubles(9, "angular_velocity_covariance");
+  message->Doubles(3, s.accel.data(), "linear_acceleration");
+  message->SkipDoubles(9, "linear_acceleration_covariance");
   return s;
 }
 
-StampedPose GetPose(const std::string& type, RosCursor message) {
+StampedPose GetPose(const std::string& type, RosCursor* message) {
+  const bool odometry = type == "nav_msgs/Odometry", transform = type == "geometry_msgs/TransformStamped";
   StampedPose s;
-  s.t = message.Header();
-  if (type == "nav_msgs/Odometry" || type == "geometry_msgs/TransformStamped") message.Text("child_frame_id");
-  message.Doubles(3, s.pose.p.data(), "position");
-  message.Doubles(4, s.pose.q.coeffs().data(), "orientation");  // both x y z w
+  s.t = message->Header();
+  if (odometry || transform) message->Text("child_frame_id");
+  message->Doubles(3, s.pose.p.data(), transform ? "transform.translation" : "pose.position");
+  message->Doubles(4, s.pose.q.coeffs().data(),  // both x y z w
+                   transform ? "transform.rotation" : "pose.orientation");
   return s;
 }
 

@@ -24,8 +24,8 @@ struct SensorSizeInMessage {
 /// Appends the events; their sensor's size comes back.
 SensorSizeInMessage GetEventArray(RosCursor message, EventArray* events);
 EventPacket GetEventPacket(RosCursor message);
-ImuSample GetImu(RosCursor message);
-/// The quaternion as it stands, of whatever length.
-StampedPose GetPose(const std::string& type, RosCursor message);
+ImuSample GetImu(RosCursor* message);
+/// Up to the pose itself. The quaternion as it stands, of whatever length.
+StampedPose GetPose(const std::string& type, RosCursor* message);
 
 }  // namespace evit::formats

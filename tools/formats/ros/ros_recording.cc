@@ -109,12 +109,12 @@ void RosRecording::Scan() {
   RosMessage message;
   while (pass->Next(&message)) {
     InMessage(*store_, message.topic, ++n[message.topic], [&] {
-      const RosCursor cursor(message.data, message.size, store_->cdr());
+      RosCursor cursor(message.data, message.size, store_->cdr());
       if (message.topic == imu_.name) {
-        const ImuSample s = GetImu(cursor);
+        const ImuSample s = GetImu(&cursor);
         AppendValid(s, s.gyro.allFinite() && s.accel.allFinite(), &streams_.imu, &streams_.dropped_imu);
       } else if (message.topic == truth_.name) {
-        AppendPose(GetPose(truth_.type, cursor), true, &streams_.truth, &streams_.dropped_truth);
+        AppendPose(GetPose(truth_.type, &cursor), true, &streams_.truth, &streams_.dropped_truth);
       } else if (packets) {
         const EventPacket packet = GetEventPacket(cursor);
         encoding = packet.encoding;

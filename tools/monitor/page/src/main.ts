@@ -1,5 +1,6 @@
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
+import { aboutText } from "./about";
 import { Candidates } from "./candidates";
 import { Connection, type Handler } from "./connection";
 import { element, onThemeChange, setMarked, setText } from "./dom";
@@ -11,6 +12,7 @@ import { Latencies } from "./latency";
 import { showLegend } from "./legend";
 import { MapView } from "./map_view";
 import { Plots } from "./plots";
+import { positionText, sigmasText, speedText } from "./readout";
 import { ReplayBar } from "./replay_bar";
 import { ServicesView } from "./services_view";
 import type { Answer, Drawn, Mode, Places, Status } from "./status";
@@ -18,12 +20,6 @@ import { SurfaceView } from "./surface_view";
 import type { View } from "./viewpoint";
 
 const ANSWER_MS = 6000; // for so long an answer stays
-
-// Standard deviations of position and of orientation.
-function sigmas({ covariance }: WindowState): string {
-  const root = (...at: number[]) => Math.sqrt(at.reduce((sum, i) => sum + Math.max(0, covariance[7 * i]!), 0));
-  return `${(1000 * root(0, 1, 2)).toFixed(1)} mm  ${((root(3, 4, 5) * 180) / Math.PI).toFixed(2)}°`;
-}
 
 class Page implements Handler {
   private readonly canvas = element<HTMLCanvasElement>("map");
@@ -173,9 +169,9 @@ class Page implements Handler {
     place.toggleAttribute("data-stale", !tracks);
     place.title = tracks || !this.lastPose ? "" : "Where it was last: it is not tracked now";
     const { lastPose: pose, lastWindow: window } = this;
-    setText("position", pose ? `${pose.position.map((x) => x.toFixed(2).padStart(6)).join(" ")} m` : "–");
-    setText("speed", tracks && pose ? `${Math.hypot(...pose.velocity).toFixed(2)} m/s` : "–");
-    setText("sigma", tracks && window?.mode === TRACKING ? sigmas(window) : "–");
+    setText("position", pose ? positionText(pose) : "–");
+    setText("speed", tracks && pose ? speedText(pose) : "–");
+    setText("sigma", tracks && window?.mode === TRACKING ? sigmasText(window) : "–");
   }
 
   // All that is known comes again, perhaps of another pipeline.
@@ -243,12 +239,7 @@ class Page implements Handler {
     if (!status) return;
     const figures = this.mapView.figures;
     Object.assign(this.canvas.dataset, figures);
-    const known = status.map?.known ?? 0;
-    const total = Math.max(known, status.map?.total ?? 0);
-    const points = known ? `${known.toLocaleString("en")}${known < total ? ` of ${total.toLocaleString("en")}` : ""} map points` : "no map";
-    const drawn = figures.drawn! < figures.points! ? `, ${figures.drawn!.toLocaleString("en")} drawn` : "";
-    const viewers = `${status.viewers} viewer${status.viewers === 1 ? "" : "s"}`;
-    setText("about", [points + drawn, figures.framesPerSecond! > 5 && `${figures.framesPerSecond} frames/s`, viewers, status.read_only && "read-only"].filter(Boolean).join(" · "));
+    setText("about", aboutText(status, figures));
   }
 }
 

@@ -1,0 +1,28 @@
+#include "tools/evit/interruptible.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <stdexcept>
+
+#include "common/service/stop_signals.h"
+#include "tools/terminal/progress_bar.h"
+
+namespace evit::commands {
+
+void RunInterruptibly(const std::string& command, const std::string& doing,
+                      const std::function<void(const std::function<void(double)>& report)>& work) {
+  const StopSignals signals;
+  try {
+    terminal::ProgressBar bar(doing);
+    work([&](double share) {
+      if (signals.received()) throw std::runtime_error("interrupted");
+      bar.Show(share);
+    });
+  } catch (const std::runtime_error&) {
+    if (!signals.received()) throw;
+    std::fprintf(stderr, "%s: interrupted; nothing was written\n", command.c_str());
+    throw CLI::RuntimeError(130);
+  }
+}
+
+}  // namespace evit::commands
