@@ -15,6 +15,7 @@
 #include "tools/formats/prophesee/raw_recording.h"
 #include "tools/formats/ros/message_types.h"
 #include "tools/formats/ros/ros_recording.h"
+#include "tools/formats/ros/transform_poses.h"
 #include "tools/formats/ros2/mcap_bag.h"
 #include "tools/formats/tables/stream_tables.h"
 #include "tools/formats/tables/table_kind.h"
@@ -43,8 +44,15 @@ void ReadMessages(const std::uint8_t* data, std::size_t size, bool cdr) {
                                              EventPacketDecoder().Decode(
                                                  GetEventPacket(RosCursor(data, size, cdr)), &events);
                                            },
-                                           [&] { GetImu(RosCursor(data, size, cdr)); },
-                                           [&] { GetPose(kPoseTypes[2], RosCursor(data, size, cdr)); }};
+                                           [&] {
+                                             RosCursor message(data, size, cdr);
+                                             GetImu(&message);
+                                           },
+                                           [&] {
+                                             RosCursor message(data, size, cdr);
+                                             GetPose(kPoseTypes[2], &message);
+                                           },
+                                           [&] { TransformPoses().Add(RosCursor(data, size, cdr)); }};
   for (const auto& read : readers) {
     try {
       read();

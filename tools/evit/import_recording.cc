@@ -148,7 +148,9 @@ void AddImportRecording(CLI::App* import) {
       "Events to take where there are several: a bag's topic, a group of HDF5, a camera of AEDAT 4");
   import->add_option("--imu-topic", choice.imu, "Of a bag or AEDAT 4: IMU to take (default: the only one)");
   import->add_option("--truth-topic", choice.truth,
-                     "Of a bag: pose, odometry or transform to take (default: the only one)");
+                     "Of a bag: pose, odometry or transform to take (default: the only one but /tf)");
+  import->add_option("--truth-frame", choice.truth_frame,
+                     "Of /tf as --truth-topic: the frame (child_frame_id) whose poses are the truth");
   import->footer(
       "Example: evit import recording.raw --out recording.lcmlog\n"
       "What is out of order, not finite or outside the sensor is counted and left out.");

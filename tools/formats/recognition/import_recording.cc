@@ -70,7 +70,8 @@ Utime FindOffset(Recording* recording, const RecordingInfo& info, const ImportSt
 void RequireChoicesUsed(const RecordingImport& job) {
   for (const auto& [choice, file, option, has_topics] :
        {std::tuple(job.choice.imu, job.imu, "--imu-topic", &HasImuTopics),
-        std::tuple(job.choice.truth, job.truth, "--truth-topic", &HasTruthTopics)}) {
+        std::tuple(job.choice.truth, job.truth, "--truth-topic", &HasTruthTopics),
+        std::tuple(job.choice.truth_frame, job.truth, "--truth-frame", &HasTruthTopics)}) {
     if (choice.empty()) continue;
     const std::string& source = file.empty() ? job.paths.front() : file;
     if (file != kNone && has_topics(source)) continue;

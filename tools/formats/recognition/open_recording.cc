@@ -81,8 +81,8 @@ std::unique_ptr<MessageStore> OpenBags(const std::vector<std::string>& paths) {
 
 std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths, const StreamChoice& choice) {
   if (auto bags = OpenBags(paths))
-    return std::make_unique<RosRecording>(std::move(bags),
-                                          RosTopics{choice.events, choice.imu, choice.truth});
+    return std::make_unique<RosRecording>(
+        std::move(bags), RosTopics{choice.events, choice.imu, choice.truth, choice.truth_frame});
   if (H5Recording::Recognises(paths.front())) return std::make_unique<H5Recording>(paths, choice.events);
   if (paths.size() != 1)
     throw std::runtime_error(paths[1] + ": a recording of the format of " + paths.front() +

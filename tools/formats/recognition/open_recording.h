@@ -11,6 +11,7 @@ namespace evit::formats {
 /// What can be chosen where a recording holds several streams of a kind; empty: the only one.
 struct StreamChoice {
   std::string events, imu, truth;  // topics
+  std::string truth_frame;         // of a topic of TFMessage
 };
 
 /// Opens a recording of whatever format, which it recognises by the contents of its files, not by their

@@ -16,6 +16,8 @@ inline constexpr const char* kImuType = "sensor_msgs/Imu";
 inline constexpr const char* kPoseTypes[] = {"geometry_msgs/PoseStamped",
                                              "geometry_msgs/PoseWithCovarianceStamped", "nav_msgs/Odometry",
                                              "geometry_msgs/TransformStamped"};
+/// Of many frames at a time (TransformPoses).
+inline constexpr const char* kTransformsTypes[] = {"tf2_msgs/TFMessage", "tf/tfMessage"};
 
 struct SensorSizeInMessage {
   std::uint32_t width = 0, height = 0;

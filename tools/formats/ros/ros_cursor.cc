@@ -52,10 +52,11 @@ std::string RosCursor::Text(const char* field) {
   return {text, strnlen(text, n)};  // CDR counts the zero at the end
 }
 
-Utime RosCursor::Header() {
+Utime RosCursor::Header(std::string* frame) {
   if (!cdr_) Get<std::uint32_t>("header.seq");
   const Utime stamp = Time("header.stamp");
-  Text("header.frame_id");
+  const std::string id = Text("header.frame_id");
+  if (frame != nullptr) *frame = id;
   return stamp;
 }
 

@@ -26,8 +26,8 @@ class RosCursor {
   }
   void Doubles(int n, double* out, const char* field);
   void SkipDoubles(int n, const char* field);
-  /// std_msgs/Header; its stamp.
-  Utime Header();
+  /// std_msgs/Header; its stamp, and `frame` where given.
+  Utime Header(std::string* frame = nullptr);
   /// A stamp within a message; nanoseconds are rounded.
   Utime Time(const char* field);
   std::string Text(const char* field);

@@ -12,6 +12,7 @@
 #include "tools/formats/ros/message_types.h"
 #include "tools/formats/ros/one_recording.h"
 #include "tools/formats/ros/topic_choice.h"
+#include "tools/formats/ros/transform_poses.h"
 
 namespace evit::formats {
 namespace {
@@ -88,21 +89,29 @@ RosRecording::RosRecording(std::unique_ptr<MessageStore> store, const RosTopics&
   types.insert(types.end(), std::begin(kEventArrayTypes), std::end(kEventArrayTypes));
   events_ = ChooseTopic(*store_, types, topics.events, "--events-topic");
   imu_ = ChooseTopic(*store_, {kImuType}, topics.imu, "--imu-topic");
-  truth_ =
-      ChooseTopic(*store_, {std::begin(kPoseTypes), std::end(kPoseTypes)}, topics.truth, "--truth-topic");
+  std::vector<std::string> truths(std::begin(kPoseTypes), std::end(kPoseTypes));
+  if (!topics.truth.empty())
+    truths.insert(truths.end(), std::begin(kTransformsTypes), std::end(kTransformsTypes));
+  truth_ = ChooseTopic(*store_, truths, topics.truth, "--truth-topic");
+  if (!topics.truth_frame.empty() && !IsOneOf(truth_.type, kTransformsTypes))
+    throw std::runtime_error(store_->name() + ": --truth-frame " + topics.truth_frame +
+                             " chooses a frame of a topic of type tf2_msgs/TFMessage; name that with "
+                             "--truth-topic, or leave the option out");
   if (store_->n_files() > 1) RequireOneRecording(store_->Parts(), {events_.name, imu_.name, truth_.name});
-  Scan();
+  Scan(topics.truth_frame);
 }
 
 // One pass for all that is needed before the events: size and clock of the sensor, IMU and truth.
-void RosRecording::Scan() {
-  const bool packets = IsOneOf(events_.type, kEventPacketTypes);
+void RosRecording::Scan(const std::string& truth_frame) {
+  const bool packets = IsOneOf(events_.type, kEventPacketTypes),
+             transforms = IsOneOf(truth_.type, kTransformsTypes);
   std::set<std::string> topics;
   for (const RosTopic& topic : {events_, imu_, truth_}) {
     if (!topic.name.empty()) topics.insert(topic.name);
   }
   std::unique_ptr<MessagePass> pass = store_->Read(topics);
   EventPacketDecoder decoder;
+  TransformPoses frames;
   EventArray events;
   std::map<std::string, std::int64_t> n;  // messages of each topic
   std::string encoding;
@@ -113,6 +122,8 @@ void RosRecording::Scan() {
       if (message.topic == imu_.name) {
         const ImuSample s = GetImu(&cursor);
         AppendValid(s, s.gyro.allFinite() && s.accel.allFinite(), &streams_.imu, &streams_.dropped_imu);
+      } else if (message.topic == truth_.name && transforms) {
+        frames.Add(cursor);
       } else if (message.topic == truth_.name) {
         AppendPose(GetPose(truth_.type, &cursor), true, &streams_.truth, &streams_.dropped_truth);
       } else if (packets) {
@@ -132,11 +143,21 @@ void RosRecording::Scan() {
       }
     });
   }
+  if (transforms) TakeTruth(frames, truth_frame);
   own_clock_ = packets && !EventPacketDecoder::HostTime(encoding);
   clock_.Solve();
   if (!imu_.name.empty()) streams_.imu_name = store_->name() + ": " + imu_.name;
   info_.format = store_->container() + ", " + events_.type + (encoding.empty() ? "" : " (" + encoding + ")");
   info_.sensor = events_.name;
+}
+
+void RosRecording::TakeTruth(const TransformPoses& frames, const std::string& frame) {
+  try {
+    for (const StampedPose& pose : frames.Of(frame))
+      AppendPose(pose, true, &streams_.truth, &streams_.dropped_truth);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(store_->name() + ": " + truth_.name + ": " + error.what());
+  }
 }
 
 std::unique_ptr<EventSource> RosRecording::Events(int width, int height) {

@@ -7,16 +7,19 @@
 #include "tools/formats/event_packet/clock_fit.h"
 #include "tools/formats/import/recording.h"
 #include "tools/formats/ros/message_store.h"
+#include "tools/formats/ros/transform_poses.h"
 
 namespace evit::formats {
 
 /// Which topics to take; empty: the only one of its kind.
 struct RosTopics {
   std::string events, imu, truth;
+  std::string truth_frame;  // of a TFMessage: its child_frame_id; empty: the only one
 };
 
 /// A recording in a ROS bag, whatever its container: events (EventArray of dvs_msgs or prophesee_event_msgs,
-/// EventPacket), sensor_msgs/Imu, and truth as pose, odometry or transform. Times are those in the messages.
+/// EventPacket), sensor_msgs/Imu, and truth as pose, odometry or transform, also that of a frame of /tf where
+/// its topic is named (many bags have one that is no truth). Times are those in the messages.
 /// Events of an EventPacket that carry only the sensor's clock get the host's by the packets' stamps
 /// (ClockFit): those of IMU and truth are the host's.
 class RosRecording : public Recording {
@@ -30,7 +33,8 @@ class RosRecording : public Recording {
   ImportStreams Streams() override;
 
  private:
-  void Scan();
+  void Scan(const std::string& truth_frame);
+  void TakeTruth(const TransformPoses& frames, const std::string& frame);
 
   std::unique_ptr<MessageStore> store_;
   RosTopic events_, imu_, truth_;  // without a name: none

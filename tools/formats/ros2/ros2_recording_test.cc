@@ -38,7 +38,7 @@ class Cdr {
     return Put(static_cast<std::int32_t>(t / kMicrosPerSecond))
         .Put(static_cast<std::uint32_t>(t % kMicrosPerSecond * 1000));
   }
-  Cdr& Header(Utime t) { return Time(t).Text("camera"); }
+  Cdr& Header(Utime t, const std::string& frame = "camera") { return Time(t).Text(frame); }
   Cdr& Doubles(const std::vector<double>& values) {
     for (const double v : values) Put(v);
     return *this;
@@ -81,7 +81,8 @@ std::string Packet(Utime stamp, const std::string& encoding, std::uint64_t time_
 
 const std::map<std::string, std::string> kTypes = {{"/cam/events", "event_camera_msgs/msg/EventPacket"},
                                                    {"/imu", "sensor_msgs/msg/Imu"},
-                                                   {"/odom", "nav_msgs/msg/Odometry"}};
+                                                   {"/odom", "nav_msgs/msg/Odometry"},
+                                                   {"/tf", "tf2_msgs/msg/TFMessage"}};
 
 // Two packets of a sensor whose clock stands at 5 s when the host's is at kStart, with IMU and truth.
 std::vector<Message> Recording() {
@@ -279,6 +280,60 @@ TEST(Ros2Recording, EventArraysAreRead) {
   EXPECT_EQ(e.p, (std::vector<std::uint8_t>{0, 1, 0}));
 }
 
+// Two frames in each message of /tf, at x = 0, 1, ... and -1, -2, ...
+std::vector<Message> WithTransforms() {
+  std::vector<Message> messages = Recording();
+  for (int k = 0; k < 3; ++k) {
+    const Utime t = kStart + 3'000 * k;
+    Cdr transforms;
+    transforms.Put(std::uint32_t{2});
+    transforms.Header(t, "mocap").Text("drone").Doubles({1.0 * k, 2, 3, 0, 0, 0, 1});
+    transforms.Header(t, "drone").Text("gimbal").Doubles({-1.0 - k, 0, 0, 0, 0, 1, 0});
+    messages.push_back({"/tf", transforms.bytes(), t});
+  }
+  return messages;
+}
+
+TEST(Ros2Recording, ThePosesOfAFrameOfTfMayBeTheTruth) {
+  const TemporaryFolder folder("ros2");
+  const std::string bag = folder.File("a.db3");
+  WriteSqlite(bag, WithTransforms());
+  EXPECT_EQ(RosRecording(OpenRos2Bag(bag), {}).Streams().truth.size(), 2U) << "unasked, /odom is the truth";
+  RosRecording recording(OpenRos2Bag(bag), {"", "", "/tf", "drone"});
+  const ImportStreams streams = recording.Streams();
+  ASSERT_EQ(streams.truth.size(), 3U);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(streams.truth[k].t, kStart + 3'000 * k);
+    EXPECT_EQ(streams.truth[k].pose.p, Eigen::Vector3d(k, 2, 3));
+  }
+  const auto error = [&](const std::string& topic, const std::string& frame, const std::string& text) {
+    EXPECT_THAT(
+        [&] {
+          RosRecording(OpenRos2Bag(bag), {"", "", topic, frame});
+        },
+        ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("a.db3"), HasSubstr(text))));
+  };
+  error("/tf", "",
+        "/tf: choose the frame whose poses are the truth with --truth-frame; frames: drone (in mocap), "
+        "gimbal (in drone)");
+  error("/tf", "dron", "--truth-frame dron: there is no such frame");
+  error("/odom", "drone", "--truth-frame drone chooses a frame of a topic of type tf2_msgs/TFMessage");
+}
+
+TEST(Ros2Recording, AFrameOfTwoParentsIsNoTruth) {
+  const TemporaryFolder folder("ros2");
+  std::vector<Message> messages = WithTransforms();
+  Cdr other;
+  other.Put(std::uint32_t{1}).Header(kStart + 9'000, "odom").Text("drone").Doubles({0, 0, 0, 0, 0, 0, 1});
+  messages.push_back({"/tf", other.bytes(), kStart + 9'000});
+  WriteSqlite(folder.File("a.db3"), messages);
+  EXPECT_THAT(
+      [&] {
+        RosRecording(OpenRos2Bag(folder.File("a.db3")), {"", "", "/tf", "drone"});
+      },
+      ThrowsMessage<std::runtime_error>(HasSubstr("its poses are given in several frames")));
+}
+
 TEST(Ros2Recording, WhatIsMissingOrWrongIsNamed) {
   const TemporaryFolder folder("ros2");
   std::vector<Message> messages = Recording();
@@ -289,7 +344,7 @@ TEST(Ros2Recording, WhatIsMissingOrWrongIsNamed) {
                   AllOf(HasSubstr("a.db3: /cam/events, message"), HasSubstr("the bag is damaged"))));
   EXPECT_THAT(
       [&] {
-        RosRecording(OpenRos2Bag(folder.File("a.db3")), {"", "/odom", ""});
+        RosRecording(OpenRos2Bag(folder.File("a.db3")), {"", "/odom", "", ""});
       },
       ThrowsMessage<std::runtime_error>(
           AllOf(HasSubstr("--imu-topic /odom"), HasSubstr("/imu (sensor_msgs/Imu)"))));
