@@ -58,7 +58,7 @@ export class Pipeline {
 }
 
 // Waits until it holds. Long: a busy host is slow, and only what never comes is an error.
-export async function until(what, holds, seconds = 60) {
+export async function until(what, holds, seconds = 180) {
   const end = Date.now() + 1000 * seconds;
   for (;;) {
     const value = await holds();
