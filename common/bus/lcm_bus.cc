@@ -104,6 +104,9 @@ class LcmBus : public Bus {
     Subscriber* subscriber;
     std::vector<std::uint8_t> data;
   };
+  // What waits for one subscription: some seconds of events, 16 times what lossless replay has under way.
+  // LCM's own limit counts messages whatever their size and drops in silence.
+  static constexpr std::size_t kMaxQueuedBytes = std::size_t{16} << 20;
   static constexpr std::size_t kMaxSpare = 64;
   static constexpr int kMaxDrain = 4096;
 

@@ -8,11 +8,8 @@
 namespace evit {
 
 constexpr std::size_t kMaxMessageBytes = std::size_t{16} << 20;  // LCM itself gives up at 65535 fragments
-/// What waits in a process for one subscription: some seconds of events, 16 times what lossless replay has
-/// under way. LCM's own limit counts messages whatever their size and drops in silence.
-constexpr std::size_t kMaxQueuedBytes = std::size_t{16} << 20;
-constexpr std::int32_t kMaxImageSide = 8192;              // pixels
-constexpr std::int32_t kMaxMapPoints = 1'000'000;         // in one answer
+constexpr std::int32_t kMaxImageSide = 8192;                     // pixels
+constexpr std::int32_t kMaxMapPoints = 1'000'000;                // in one answer
 constexpr std::int64_t kMaxTime = std::int64_t{1} << 60;  // us, either sign: differences never overflow
 constexpr std::int64_t kMaxSequence = std::int64_t{1}
                                       << 40;  // message numbers: far beyond any sender's lifetime

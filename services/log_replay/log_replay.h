@@ -65,7 +65,7 @@ class LogReplay : public Service {
   void Send(std::int64_t now_us);
   bool SendOneAgain();
   bool SendOneNew(std::int64_t now_us);
-  void Report(std::int64_t now_us);
+  void Report(std::int64_t now_us);  // this, done() and Stop(): log_replay_report.cc
   std::int64_t DataTime() const;
   bool everything_delivered() const { return !options_.lossless || window_.all_acknowledged(); }
 

@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "procman/command_line.h"
+#include "tools/paper/paper_layout.h"
 #include "tools/paper/text_files.h"
-#include "tools/paper/text_table.h"
 
 namespace evit::paper {
 namespace {

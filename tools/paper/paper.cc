@@ -6,9 +6,10 @@
 #include "common/service/stop_signals.h"
 #include "tools/paper/figures.h"
 #include "tools/paper/index.h"
+#include "tools/paper/paper_layout.h"
 #include "tools/paper/run_jobs.h"
+#include "tools/paper/table_files.h"
 #include "tools/paper/text_files.h"
-#include "tools/paper/text_table.h"
 #include "tools/terminal/progress_bar.h"
 
 namespace evit::paper {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kPlan = 760;       // pixels of the square that holds the plan, and of the detail beside it
 constexpr int kThumbnail = 320;  // pixels of a surface's width
-constexpr int kGap = 20, kTop = 60;
+constexpr int kGapPx = 20, kTop = 60;
 constexpr int kShift = 4;  // sub-pixel positions
 
 // Oldest keyframe blue, newest red. BGR.
@@ -119,13 +119,14 @@ void DrawWindow(const std::string& path, const std::string& title, const Keyfram
 
   const int columns = static_cast<int>(n), thumb_height = kThumbnail * rig.camera.height / rig.camera.width;
   const int upper = std::max(plan.picture.rows, kPlan);
-  const int width = std::max(plan.picture.cols + kPlan + 3 * kGap, columns * (kThumbnail + kGap) + kGap);
-  cv::Mat image(kTop + upper + 50 + thumb_height + kGap, width, CV_8UC3, cv::Scalar(255, 255, 255));
+  const int width =
+      std::max(plan.picture.cols + kPlan + 3 * kGapPx, columns * (kThumbnail + kGapPx) + kGapPx);
+  cv::Mat image(kTop + upper + 50 + thumb_height + kGapPx, width, CV_8UC3, cv::Scalar(255, 255, 255));
   pictures::DrawText(&image, title, {width / 2, 38}, 0.8, pictures::Anchor::kCenter, {20, 20, 20}, 2);
-  plan.picture.copyTo(image(cv::Rect({kGap, kTop}, plan.picture.size())));
-  Detail(cameras, rig.camera).copyTo(image(cv::Rect(width - kPlan - kGap, kTop, kPlan, kPlan)));
+  plan.picture.copyTo(image(cv::Rect({kGapPx, kTop}, plan.picture.size())));
+  Detail(cameras, rig.camera).copyTo(image(cv::Rect(width - kPlan - kGapPx, kTop, kPlan, kPlan)));
   const int y = kTop + upper + 40;
-  const int left = (width - columns * (kThumbnail + kGap) + kGap) / 2;
+  const int left = (width - columns * (kThumbnail + kGapPx) + kGapPx) / 2;
   for (std::size_t k = 0; k < n; ++k) {
     RecordedKeyframe keyframe;
     if (!log.Read(window.node[k].keyframe_seq, &keyframe)) continue;
@@ -133,7 +134,7 @@ void DrawWindow(const std::string& path, const std::string& title, const Keyfram
     const cv::Mat picture =
         SurfaceWithPoints(keyframe, rig, VisibleFrom(map, rig, pose, 2500), pose, {40, 40, 230},
                           static_cast<double>(kThumbnail) / keyframe.width);
-    const cv::Rect where(left + static_cast<int>(k) * (kThumbnail + kGap), y, picture.cols, picture.rows);
+    const cv::Rect where(left + static_cast<int>(k) * (kThumbnail + kGapPx), y, picture.cols, picture.rows);
     picture.copyTo(image(where));
     cv::rectangle(image, where, ColorOf(k, n), 4);
     char text[40];

@@ -37,6 +37,7 @@ class Renderer {
   void DrawDepth(const PlacedSurface& placed, View* view) const;
   void Shade(const std::vector<PlacedSurface>& placed, View* view) const;
   void ShadePlane(const PlacedSurface& placed, std::size_t begin, std::size_t end, View* view) const;
+  // The borders of surfaces: border_smoothing.cc.
   void Smooth(const std::vector<PlacedSurface>& placed, View* view) const;
   float SmoothPixel(const std::vector<PlacedSurface>& placed, const std::int32_t* ids, int n_ids, int x,
                     int y, float fallback) const;

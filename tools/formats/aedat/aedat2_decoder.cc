@@ -1,8 +1,9 @@
+#include "tools/formats/aedat/aedat2_decoder.h"
+
 #include <cstring>
 
 #include "common/geometry/degrees.h"
 #include "common/imu/standard_gravity.h"
-#include "tools/formats/aedat/aedat_decoder.h"
 
 namespace evit::formats {
 namespace {

@@ -1,10 +1,11 @@
+#include "tools/formats/aedat/aedat3_decoder.h"
+
 #include <stdexcept>
 #include <string>
 
 #include "common/files/load_number.h"
 #include "common/geometry/degrees.h"
 #include "common/imu/standard_gravity.h"
-#include "tools/formats/aedat/aedat_decoder.h"
 
 namespace evit::formats {
 namespace {

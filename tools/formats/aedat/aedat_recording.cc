@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tools/formats/aedat/aedat2_decoder.h"
+#include "tools/formats/aedat/aedat3_decoder.h"
 #include "tools/formats/import/byte_file.h"
 #include "tools/formats/import/event_filter.h"
 

@@ -1,4 +1,4 @@
-#include "tools/paper/text_table.h"
+#include "tools/paper/paper_layout.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,6 +7,7 @@
 
 #include "tests/helpers/paper.h"
 #include "tools/paper/summary.h"
+#include "tools/paper/table_files.h"
 #include "tools/paper/text_files.h"
 
 namespace evit::paper {
