@@ -59,7 +59,8 @@ std::size_t Evt2Decoder::Decode(const std::uint8_t* data, std::size_t size, bool
       if (!HandleTimeHigh(upper, k, n, last, &high_)) return 4 * k;
     } else if (word.type == kOff || word.type == kOn) {
       if (high_.known()) {
-        events->push_back((Utime{high_.value()} << 6) + word.low, word.x, word.y, word.type == kOn ? 1 : 0);
+        events->push_back(Utime{high_.value()} * (1 << 6) + word.low, word.x, word.y,
+                          word.type == kOn ? 1 : 0);
       } else {
         ++unstamped_;
       }
@@ -76,7 +77,7 @@ std::size_t Evt21Decoder::Decode(const std::uint8_t* data, std::size_t size, boo
     if (word.type == kTimeHigh) {
       if (!HandleTimeHigh(upper, k, n, last, &high_)) return 8 * k;
     } else if (word.type == kOff || word.type == kOn) {
-      const Utime t = (Utime{high_.value()} << 6) + word.low;
+      const Utime t = Utime{high_.value()} * (1 << 6) + word.low;
       for (std::uint32_t valid = Lower(data, k, upper_half_first_); valid != 0; valid &= valid - 1) {
         if (high_.known()) {
           events->push_back(t, static_cast<std::uint16_t>(word.x + __builtin_ctz(valid)), word.y,

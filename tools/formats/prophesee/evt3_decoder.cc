@@ -57,7 +57,7 @@ bool Evt3Decoder::HandleTimeHigh(const std::uint8_t* data, std::size_t k, std::s
     changed = next < n ? high_.Jump(high, Word(data, next) & 0xFFFU) : high_.JumpAlone(high);
   }
   if (changed) low_ = 0;
-  time_ = (Utime{high_.value()} << 12) + low_;
+  time_ = Utime{high_.value()} * (1 << 12) + low_;
   return true;
 }
 
@@ -73,7 +73,7 @@ std::size_t Evt3Decoder::Decode(const std::uint8_t* data, std::size_t size, bool
       switch (word >> 12) {
         case kTimeLow:
           low_ = word & 0xFFF;
-          time_ = (Utime{high_.value()} << 12) + low_;
+          time_ = Utime{high_.value()} * (1 << 12) + low_;
           break;
         case kTimeHigh:
           if (!HandleTimeHigh(data, k, n, last)) return 2 * k;

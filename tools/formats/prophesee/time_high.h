@@ -10,6 +10,7 @@ template <int bits>
 class TimeHigh {
  public:
   bool known() const { return known_; }
+  /// Negative where the clock slips back right after the start: to be multiplied, not shifted.
   std::int64_t value() const { return value_; }
   /// Whether `high` is an ordinary successor: the same, or one more.
   bool Ordinary(std::uint32_t high) const { return known_ && Distance(high) <= 1; }
