@@ -87,6 +87,31 @@ TEST_F(WindowTrackerTest, EventsTheMapDoesNotLieOnDoNotPull) {
   EXPECT_LT((window_.state().T_map_body.p - source_.Truth(t_).p).norm(), 0.006);
 }
 
+// A sixth of what is seen is in the map: while tracking that is enough. After long coasting it is not, as noise
+// may look the same; the whole room is.
+TEST_F(WindowTrackerTest, AfterLongCoastingAPoseMustFitAsWellAsAStart) {
+  options_.failure.max_coast_s = 2;
+  options_.failure.max_position_sigma_m = 1;
+  std::vector<Eigen::Vector3f> partly = synthetic::RoomPoints(60, 99);
+  partly.insert(partly.end(), source_.room.begin(), source_.room.begin() + 60 * 12);
+  for (const int coasted : {0, 24}) {
+    WindowTracker tracker(TestRig(), options_, source_.settings, &points_);
+    source_ = KeyframeSource();
+    source_.last = t_ = 1'000'000;
+    Matrix15d information = Matrix15d::Zero();
+    information.diagonal() << Vector6d::Constant(1e6), Eigen::Matrix<double, 9, 1>::Constant(1e4);
+    tracker.Start(t_, state_, information);
+    const auto step = [&](const std::vector<Eigen::Vector3f>& seen) {
+      const KeyframeInput keyframe = source_.Next(t_ += 25'000, seen);
+      return tracker.Process(keyframe, keyframe.imu.back().gyro - source_.bias.gyro, &out_).coasting;
+    };
+    for (int k = 0; k < 5; ++k) ASSERT_EQ(step(source_.room), "");
+    for (int k = 0; k < coasted; ++k) ASSERT_EQ(step({}), "no events");
+    EXPECT_EQ(step(partly), coasted == 0 ? "" : "the map does not lie on the events");
+    EXPECT_EQ(step(source_.room), "");
+  }
+}
+
 // As bootstrapping starts it. Where the start was a false one the events tell within a few keyframes, long
 // before coasting has lasted too long.
 TEST_F(WindowTrackerTest, NoticesWithinFiveKeyframesThatTheStartWasFalse) {
