@@ -47,9 +47,10 @@ void ParseOptions(const std::string& url, const std::string& options, LcmUrl* re
       (void)ParseInt(url, key, value, 0, 255);
     } else if (key == "recv_buf_size") {
       result->receive_buffer = ParseInt(url, key, value, 1, 1 << 30);
-    } else if (!option.empty()) {
-      throw std::runtime_error("LCM URL \"" + url + "\": \"" + key +
-                               "\" is no option of udpm; it has ttl and recv_buf_size");
+    } else if (!option.empty() && key != "transmit_only") {  // obsolete: liblcm only says so
+      std::string text = "LCM URL \"";
+      text.append(url).append("\": \"").append(key);
+      throw std::runtime_error(text.append("\" is no option of udpm; it has ttl and recv_buf_size"));
     }
   }
 }

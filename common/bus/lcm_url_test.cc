@@ -51,6 +51,7 @@ TEST(LcmUrl, NamesTheOptionThatIsWrong) {
   EXPECT_THAT(complaint("udpm://?tll=1"), HasSubstr("\"tll\""));
   EXPECT_THAT(complaint("udpm://?ttl=0?recv_buf_size=9"), HasSubstr("ttl"));
   EXPECT_EQ(complaint("udpm://?ttl=255&recv_buf_size=9&"), "");
+  EXPECT_EQ(complaint("udpm://?transmit_only=false"), "");  // obsolete, and taken by liblcm
 }
 
 TEST(LcmUrl, SetsTheReceiveBuffer) {
