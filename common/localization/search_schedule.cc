@@ -27,7 +27,7 @@ bool SearchSchedule::Due(Utime t, bool convinced) const {
 
 Eigen::Vector3d SearchSchedule::Begin(Utime t, const Upright& upright, const RecentImu& imu) {
   if (t < tried_at_ || t - tried_at_ > kApart) verticals_.Clear();
-  const Eigen::Vector3d up = verticals_.Next(upright, imu.Turn(tried_at_, t), ToSeconds(t - tried_at_));
+  Eigen::Vector3d up = verticals_.Next(upright, imu.Turn(tried_at_, t), ToSeconds(t - tried_at_));
   tried_at_ = t;
   BeginComparison(t);
   return up;
