@@ -55,6 +55,7 @@ std::vector<EdgeDepth> EdgeStereo::Measure(int key, const std::vector<int>& chos
                                            double typical_depth) const {
   const PosedEdges& own = views_[key];
   std::vector<StereoNeighbour> neighbours;
+  neighbours.reserve(chosen.size());
   for (const int k : chosen) neighbours.emplace_back(own, views_[k]);
   const DepthSteps steps(1 / options_.max_depth_m, 1 / options_.min_depth_m, neighbours);
   std::vector<EdgeDepth> depths;
