@@ -24,6 +24,7 @@ std::vector<PosedEdges> ViewsFrom(const std::vector<SE3>& poses) {
   const PaintedScene scene = PaintedScene::Wall();
   const Camera camera = SmallCamera();
   std::vector<PosedEdges> views;
+  views.reserve(poses.size());
   for (const SE3& pose : poses) {
     views.push_back({pose, camera,
                      EdgeImage(camera.width, camera.height,
