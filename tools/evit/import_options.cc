@@ -22,6 +22,7 @@ const std::map<std::string, double> kGyroUnits{{"rad/s", 1}, {"deg/s", 0.0174532
 
 std::vector<std::string> UnitNames(const std::map<std::string, double>& units) {
   std::vector<std::string> names;
+  names.reserve(units.size());
   for (const auto& [name, scale] : units) names.push_back(name);
   return names;
 }
