@@ -41,14 +41,14 @@ void DecodeEventArray(const std::uint8_t* data, std::size_t size, EventFilter* f
 
 ImuSample DecodeImu(const std::uint8_t* data, std::size_t size) {
   RosCursor message(data, size, false);
-  const ImuSample sample = GetImu(&message);
+  ImuSample sample = GetImu(&message);
   RequireEnd(message);
   return sample;
 }
 
 StampedPose DecodePose(const std::string& type, const std::uint8_t* data, std::size_t size) {
   RosCursor message(data, size, false);
-  const StampedPose pose = GetPose(type, &message);
+  StampedPose pose = GetPose(type, &message);
   const bool odometry = type == "nav_msgs/Odometry";
   if (odometry || type == "geometry_msgs/PoseWithCovarianceStamped")
     message.SkipDoubles(36, "pose.covariance");
