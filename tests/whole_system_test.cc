@@ -374,6 +374,7 @@ TEST_F(WholeSystemTest, BadInputIsNamedAndLeavesNothingBehind) {
       {with("rig", Path("no_fx.textproto")), "fx"},
       {with("initial-from", Path("none.tum")), "none.tum"},
       {with("out", "/proc/nowhere"), "/proc/nowhere"},
+      {RunCommand("out", "--record " + folder_.string()), "--record"},
       {kEvit + " import vector " + kLogs + " --sequence nothing --out " + Path("x.lcmlog"),
        "sequences found there"},
       {kEvit + " run --log x", "missing: --rig, --out"},

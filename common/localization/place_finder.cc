@@ -164,14 +164,17 @@ std::vector<PlaceCandidate> PlaceFinder::Everywhere(const PlaceQuery& query, con
 std::vector<PlaceMatch> PlaceFinder::SpreadEvenly(
     std::size_t count, const std::function<bool(const Eigen::Vector3f&, double)>& allowed) const {
   constexpr double kGoldenAngle = 2.39996;
-  std::vector<PlaceMatch> possible, matches;
-  double yaw = 0;
-  for (const PlaceIndex::Place& place : index_.places()) {
-    yaw += kGoldenAngle;
-    if (!allowed || allowed(place.at, yaw)) possible.push_back({place.at, yaw, 0});
+  const std::vector<PlaceIndex::Place>& places = index_.places();
+  // All of them where a prior leaves some.
+  const std::size_t n = allowed ? places.size() : std::min(count, places.size());
+  std::vector<PlaceMatch> matches;
+  for (std::size_t k = 0; k < n; ++k) {
+    const PlaceMatch match{places[k * places.size() / n].at, kGoldenAngle * static_cast<double>(k), 0};
+    if (!allowed || allowed(match.at, match.yaw)) matches.push_back(match);
   }
-  count = std::min(count, possible.size());
-  for (std::size_t k = 0; k < count; ++k) matches.push_back(possible[k * possible.size() / count]);
+  const std::size_t left = std::min(count, matches.size());
+  for (std::size_t k = 0; k < left; ++k) matches[k] = matches[k * matches.size() / left];
+  matches.resize(left);
   return matches;
 }
 

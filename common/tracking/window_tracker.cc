@@ -163,8 +163,11 @@ std::string WindowTracker::WhyCoast(const KeyframeInput& keyframe, const Alignme
   if (keyframe.n_events < options_.min_events) return "too few events";
   if (window_.nodes().back().points.size() < kMinPoints) return "no map points in view";
   // After long coasting the prediction leaves so much room that a pose fits noise as well as a false place
-  // does.
-  const double fits = keyframe.t - aligned_at_ > kLongCoasting ? kStartSignificance : kTrackingSignificance;
+  // does. Keyframes that are far apart are no coasting.
+  const std::deque<WindowNode>& nodes = window_.nodes();
+  const bool coasted = nodes.size() > 1 && nodes[nodes.size() - 2].t > aligned_at_;
+  const double fits =
+      coasted && keyframe.t - aligned_at_ > kLongCoasting ? kStartSignificance : kTrackingSignificance;
   if (!LiesOnEvents(quality, options_.failure.min_contrast, significance, fits))
     return "the map does not lie on the events";
   return "";

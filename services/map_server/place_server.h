@@ -28,7 +28,7 @@ class PlaceServer {
 
   /// Begins to make the index, or to read it.
   void Prepare();
-  /// Where the index is kept (PlaceIndexPath). Before the first Tick().
+  /// Where the index is kept (PlaceIndexPath). Before Prepare() and the first Tick().
   void KeepIn(const std::string& path) { worker_.KeepIn(path); }
   /// Sends what is answered and begins with what is asked; if questions back up, the newest only.
   void Tick();

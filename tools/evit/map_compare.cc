@@ -31,6 +31,8 @@ std::optional<mapping::PathDistance> PathOf(const std::string& poses) {
 PointMap InRange(const PointMap& map, const mapping::PathDistance* path, double min_m, double max_m,
                  const std::string& file) {
   if (path == nullptr) return map;
+  if (min_m >= max_m)
+    throw std::runtime_error(FormatText("--min-distance %g is not below --max-distance %g", min_m, max_m));
   PointMap part = path->Between(map, min_m, max_m);
   if (part.points.empty()) {
     throw std::runtime_error(

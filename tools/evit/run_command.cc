@@ -9,6 +9,7 @@
 #include "tools/doctor/doctor.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/evit/place_options.h"
 #include "tools/monitor/monitor_child.h"
 #include "tools/run/run.h"
@@ -111,6 +112,12 @@ void FinishJob(RunOptions* o) {
   if (job.play.lossless && job.play.loops > 1) throw std::runtime_error("--loops needs --realtime");
   if (job.play.loops > 1 && !job.initial_pose && job.initial_from.empty())
     throw std::runtime_error("--loops needs --initial-pose or --initial-from: each loop starts there");
+  if (!job.record.empty()) {
+    RequireLogOutput("--record", job.record);
+    RequireNotAnInput(
+        "--record", job.record,
+        {job.log, job.map, job.photometric_map, job.rig, job.config, job.truth, job.initial_from});
+  }
   job.command = CommandLineOfThis();
 }
 

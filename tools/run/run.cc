@@ -1,8 +1,10 @@
 #include "tools/run/run.h"
 
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -69,7 +71,12 @@ int Run(const RunJob& job) {
   }
   if (job.play.loops > 1) memory.Write(job.out);
   const int code = WriteResults(job, inputs, recorder, pipeline, outcome);
-  if (bus_log != nullptr) bus_log->Close();  // a full disk costs the log, not the results
+  try {
+    if (bus_log != nullptr) bus_log->Close();
+  } catch (const std::runtime_error& error) {  // a full disk costs the log, not the results
+    std::fprintf(stderr, "evit run: error: %s\n", error.what());
+    return code == 0 ? 1 : code;
+  }
   return code;
 }
 

@@ -170,8 +170,8 @@ ImportSummary Import::Run(const std::function<void(double)>& progress) {
     writer.Close(has_imu() ? std::max(last_, streams_.imu.back().t) : last_);
     n_packets = writer.n_packets();
   }
+  progress(1);  // may be interrupted, which nothing behind it may
   PutInPlace(&log, target_.out, streams_.truth);
-  progress(1);
   return Summary(n_packets);
 }
 

@@ -98,6 +98,9 @@ ImportSummary ImportRecording(const RecordingImport& given,
     job.truth = files.truth;
   }
   RequireChoicesUsed(job);
+  const StreamChoice choice = job.choice;  // each stream's is for the file that it comes from
+  if (!job.imu.empty()) job.choice.imu.clear();
+  if (!job.truth.empty()) job.choice.truth = job.choice.truth_frame = "";
   const std::unique_ptr<Recording> recording = OpenRecording(job.paths, job.choice);
   RecordingInfo info = recording->info();
   if (job.width > 0) {
@@ -114,7 +117,7 @@ ImportSummary ImportRecording(const RecordingImport& given,
     streams.imu.clear();
     streams.imu_name.clear();
   } else if (!job.imu.empty()) {
-    ImportStreams other = StreamsOf(job.imu, true, job.choice);
+    ImportStreams other = StreamsOf(job.imu, true, {"", choice.imu, "", ""});
     streams.imu = std::move(other.imu);
     streams.imu_name = job.imu;
     streams.dropped_imu = other.dropped_imu;
@@ -122,7 +125,7 @@ ImportSummary ImportRecording(const RecordingImport& given,
   if (job.truth == kNone) {
     streams.truth.clear();
   } else if (!job.truth.empty()) {
-    ImportStreams other = StreamsOf(job.truth, false, job.choice);
+    ImportStreams other = StreamsOf(job.truth, false, {"", "", choice.truth, choice.truth_frame});
     streams.truth_name = job.truth;
     streams.truth = std::move(other.truth);
     streams.dropped_truth = other.dropped_truth;

@@ -23,6 +23,7 @@ void TransformPoses::Add(RosCursor message) {
     Frame& frame = frames_[WithoutSlash(message.Text("child_frame_id"))];
     message.Doubles(3, pose.pose.p.data(), "transform.translation");
     message.Doubles(4, pose.pose.q.coeffs().data(), "transform.rotation");  // both x y z w
+    parent = WithoutSlash(parent);
     if (frame.poses.empty()) frame.parent = parent;
     frame.one_parent = frame.one_parent && parent == frame.parent;
     frame.poses.push_back(pose);
@@ -30,17 +31,14 @@ void TransformPoses::Add(RosCursor message) {
 }
 
 const std::vector<StampedPose>& TransformPoses::Of(const std::string& frame) const {
-  if (frame.empty()) {
-    if (frames_.size() == 1) return frames_.begin()->second.poses;
+  if (frame.empty() && frames_.size() != 1)
     throw std::runtime_error("choose the frame whose poses are the truth with --truth-frame; frames: " +
                              Frames());
-  }
-  const auto found = frames_.find(WithoutSlash(frame));
+  const auto found = frame.empty() ? frames_.begin() : frames_.find(WithoutSlash(frame));
   if (found == frames_.end())
     throw std::runtime_error("--truth-frame " + frame + ": there is no such frame; frames: " + Frames());
   if (!found->second.one_parent)
-    throw std::runtime_error("--truth-frame " + frame +
-                             ": its poses are given in several frames; frames: " + Frames());
+    throw std::runtime_error(found->first + ": its poses are given in several frames; frames: " + Frames());
   return found->second.poses;
 }
 

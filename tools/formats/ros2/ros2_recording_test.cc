@@ -331,7 +331,15 @@ TEST(Ros2Recording, AFrameOfTwoParentsIsNoTruth) {
       [&] {
         RosRecording(OpenRos2Bag(folder.File("a.db3")), {"", "", "/tf", "drone"});
       },
-      ThrowsMessage<std::runtime_error>(HasSubstr("its poses are given in several frames")));
+      ThrowsMessage<std::runtime_error>(HasSubstr("drone: its poses are given in several frames")));
+  Cdr again;
+  again.Put(std::uint32_t{1}).Header(kStart + 10'000, "map").Text("drone").Doubles({0, 0, 0, 0, 0, 0, 1});
+  WriteSqlite(folder.File("alone.db3"), {messages.back(), {"/tf", again.bytes(), kStart + 10'000}});
+  EXPECT_THAT(
+      [&] {
+        RosRecording(OpenRos2Bag(folder.File("alone.db3")), {"", "", "/tf", ""});
+      },
+      ThrowsMessage<std::runtime_error>(HasSubstr("drone: its poses are given in several frames")));
 }
 
 TEST(Ros2Recording, WhatIsMissingOrWrongIsNamed) {
