@@ -87,7 +87,7 @@ const std::map<std::string, std::string> kTypes = {{"/cam/events", "event_camera
 // Two packets of a sensor whose clock stands at 5 s when the host's is at kStart, with IMU and truth.
 std::vector<Message> Recording() {
   std::vector<Message> messages;
-  for (int k = 0; k < 2; ++k) {
+  for (Utime k = 0; k < 2; ++k) {
     const Utime sensor = 5'000'000 + 10'000 * k;
     const auto high = static_cast<std::uint16_t>(0x8000 | (sensor >> 12 & 0xFFF));
     messages.push_back({"/cam/events",
@@ -131,8 +131,8 @@ void WriteSqlite(const std::string& path, const std::vector<Message>& messages) 
   std::map<std::string, int> ids;
   for (const auto& [topic, type] : kTypes) {
     ids[topic] = static_cast<int>(ids.size()) + 1;
-    run("INSERT INTO topics VALUES(" + std::to_string(ids[topic]) + ",'" + topic + "','" + type +
-        "','cdr','')");
+    std::string row = "INSERT INTO topics VALUES(" + std::to_string(ids[topic]);
+    run(row.append(",'").append(topic).append("','").append(type).append("','cdr','')"));
   }
   for (const Message& m : messages) {
     sqlite3_stmt* insert = nullptr;
@@ -283,12 +283,12 @@ TEST(Ros2Recording, EventArraysAreRead) {
 // Two frames in each message of /tf, at x = 0, 1, ... and -1, -2, ...
 std::vector<Message> WithTransforms() {
   std::vector<Message> messages = Recording();
-  for (int k = 0; k < 3; ++k) {
+  for (Utime k = 0; k < 3; ++k) {
     const Utime t = kStart + 3'000 * k;
     Cdr transforms;
     transforms.Put(std::uint32_t{2});
-    transforms.Header(t, "mocap").Text("drone").Doubles({1.0 * k, 2, 3, 0, 0, 0, 1});
-    transforms.Header(t, "drone").Text("gimbal").Doubles({-1.0 - k, 0, 0, 0, 0, 1, 0});
+    transforms.Header(t, "mocap").Text("drone").Doubles({static_cast<double>(k), 2, 3, 0, 0, 0, 1});
+    transforms.Header(t, "drone").Text("gimbal").Doubles({-1.0 - static_cast<double>(k), 0, 0, 0, 0, 1, 0});
     messages.push_back({"/tf", transforms.bytes(), t});
   }
   return messages;
@@ -302,9 +302,9 @@ TEST(Ros2Recording, ThePosesOfAFrameOfTfMayBeTheTruth) {
   RosRecording recording(OpenRos2Bag(bag), {"", "", "/tf", "drone"});
   const ImportStreams streams = recording.Streams();
   ASSERT_EQ(streams.truth.size(), 3U);
-  for (int k = 0; k < 3; ++k) {
+  for (Utime k = 0; k < 3; ++k) {
     EXPECT_EQ(streams.truth[k].t, kStart + 3'000 * k);
-    EXPECT_EQ(streams.truth[k].pose.p, Eigen::Vector3d(k, 2, 3));
+    EXPECT_EQ(streams.truth[k].pose.p, Eigen::Vector3d(static_cast<double>(k), 2, 3));
   }
   const auto error = [&](const std::string& topic, const std::string& frame, const std::string& text) {
     EXPECT_THAT(
