@@ -59,11 +59,11 @@ constexpr char kNoRational[] =
 Camera ToCamera(const RigText& rig) {
   const config::Camera& c = rig.message.camera();
   Camera camera;
-  const bool rational =
-      c.model().rfind("rational", 0) == 0 || (c.distortion_size() > 5 && c.model() != "equidistant");
-  rig.Require(!rational, "camera.model", kNoRational);
+  rig.Require(c.model().rfind("rational", 0) != 0, "camera.model", kNoRational);
   rig.Require(CameraModelFromName(c.model(), &camera.model), "camera.model",
               "\"" + c.model() + "\" is not known; use \"plumb_bob\" or \"equidistant\"");
+  rig.Require(camera.model != Camera::Model::kPlumbBob || c.distortion_size() <= 5, "camera.model",
+              kNoRational);
   const double offset = c.time_offset_us();
   rig.Require(offset == 0 || std::abs(offset) >= 1, "camera.time_offset_us",
               NumberText(offset) + " us looks like seconds (Kalibr's timeshift_cam_imu): write " +

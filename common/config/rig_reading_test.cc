@@ -63,6 +63,13 @@ TEST_F(RigReading, ValuesOutOfRangeAreNamedWithTheirLine) {
   ExpectEditRefused("plumb_bob", "rational_polynomial", ":6", {"camera.model", "k1 to k6", "undistort"});
   ExpectEditRefused(", -0.001031, 0.0]", ", -0.001031, 0.0, 0.4, -2.5, 1.5]", ":6",
                     {"camera.model", "k1 to k6", "undistort"});
+  // A name that is not known says nothing of the model, however many numbers there are.
+  const std::string eight =
+      Edited(test::ReadText(kRig), ", -0.001031, 0.0]", ", -0.001031, 0.0, 0.4, -2.5, 1.5]");
+  ExpectRefused(LoadRig, Write("rig.textproto", Edited(eight, "plumb_bob", "double_sphere")), ":6",
+                {"camera.model", "double_sphere", "not known"});
+  ExpectRefused(LoadRig, Write("rig.textproto", Edited(eight, "plumb_bob", "radtan")), ":6",
+                {"camera.model", "k1 to k6"});
   ExpectEditRefused("fx: 327.32749", "fx: -1", ":9", {"camera.fx", "-1", "above 0 px"});
   ExpectEditRefused("fx: 327.32749", "fx: nan", ":9", {"camera.fx"});
   ExpectEditRefused(", -0.001031, 0.0]", "]", ":13", {"camera.distortion", "4 or 5"});

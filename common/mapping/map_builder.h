@@ -32,10 +32,11 @@ struct BuiltMap {
   std::size_t tried = 0;     // edges of key views whose depth was looked for; 0: a sensor or events told it
   std::size_t measured = 0;  // depths
   std::size_t alone = 0;     // of them, where no other view looks (of a sensor's depths; others do not count)
-  std::size_t confirmed = 0;  // of the rest, by other views
-  /// 0..1: of the depths that other views could confirm, those they do.
+  std::size_t confirmed = 0;                                   // of the rest, by other views
+  std::size_t comparable() const { return measured - alone; }  // depths at places that other views see
+  /// 0..1: of the depths that other views could confirm, those they do. 1 if there are none.
   double ConfirmedShare() const {
-    return measured > alone ? static_cast<double>(confirmed) / static_cast<double>(measured - alone) : 0;
+    return comparable() > 0 ? static_cast<double>(confirmed) / static_cast<double>(comparable()) : 1;
   }
   AdjustmentSummary adjustment;
 };

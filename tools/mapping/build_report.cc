@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "common/text/format_text.h"
+
 namespace evit::mapping {
 namespace {
 
@@ -63,10 +65,16 @@ std::vector<std::string> NotesOn(const FrameList& list, const ReadFrames& frames
 
 std::string DoubtOf(const BuiltMap& built) {
   constexpr double kFewFound = 0.15, kMuchMoved = 0.005;  // of the edges tried; m
+  constexpr std::size_t kOnePart = 20;                    // of the depths, that other views must see
   char text[400] = "";
   const double found = built.tried > 0 ? static_cast<double>(built.measured) / built.tried : 1;
   const double confirmed = built.ConfirmedShare();
-  if (confirmed < 0.5) {
+  if (kOnePart * built.comparable() < built.measured) {
+    std::snprintf(
+        text, sizeof text,
+        "hardly any place is in the sight of two views: nothing says whether poses and depths agree; "
+        "more pictures, taken closer together, would");
+  } else if (confirmed < 0.5) {
     std::snprintf(
         text, sizeof text,
         "only %.0f %% of the depths agree between views: poses of another recording, clock or frame, a "
@@ -117,15 +125,18 @@ Trajectory PosesOf(const BuiltMap& built, const std::vector<Utime>& stamps) {
 
 std::string SummaryOf(const std::string& path, const BuiltMap& built) {
   char text[700];
+  const std::string confirmed =
+      built.comparable() > 0 ? FormatText("%.0f %% confirmed by other views", 100 * built.ConfirmedShare())
+                             : "none in the sight of a second view";
   std::snprintf(
       text, sizeof text,
       "%s\n"
       "  points   %zu, median sigma %.1f mm, edges about %.1f m away\n"
-      "  views    %zu, of them %d key views: %zu depths of edges, %.0f %% confirmed by other views\n"
+      "  views    %zu, of them %d key views: %zu depths of edges, %s\n"
       "  fit      points %.2f px (rms) off the edges in all views, %.2f before; poses moved by %.1f mm, "
       "%.2f deg (median)\n",
       path.c_str(), built.points.size(), 1e3 * MedianSigma(built), built.typical_depth_m, built.poses.size(),
-      built.key_views, built.measured, 100 * built.ConfirmedShare(), built.adjustment.rms_after_px,
+      built.key_views, built.measured, confirmed.c_str(), built.adjustment.rms_after_px,
       built.adjustment.rms_before_px, 1e3 * built.adjustment.moved_m, built.adjustment.turned_deg);
   std::string summary = text;
   if (built.event_lag_px != 0) {

@@ -91,7 +91,9 @@ MapDistance DistanceBetween(const PointMap& from, const PointMap& to, const Path
   distances.reserve(from.points.size());
   for (const Eigen::Vector3f& p : from.points) {
     distances.push_back(grid.Nearest(p, static_cast<float>(reach_m)));
-    if (path != nullptr) shares.push_back(distances.back() / static_cast<float>(path->Of(p)));
+    // A point in the path itself has no share.
+    const double away = path != nullptr ? path->Of(p) : 0;
+    if (away > 0) shares.push_back(distances.back() / static_cast<float>(away));
   }
   std::sort(distances.begin(), distances.end());
   std::sort(shares.begin(), shares.end());
