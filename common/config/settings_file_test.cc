@@ -61,6 +61,7 @@ TEST_F(SettingsFile, FullCopiesOfEarlierVersionsLoadToTheSameValues) {
     const LoadedSettings earlier = LoadSettings(kEarlier + name + "_0.1.textproto");
     PipelineOptions expected = LoadOptions(kConfig + name + ".textproto");
     expected.keyframes.n_event = 30'000;  // what has another default since
+    expected.keyframes.min_events = 2000;
     expected.surface.blur_sigma_px = 0.5;
     expected.points.max_active = 5000;
     expected.points.per_keyframe = 1500;

@@ -9,8 +9,8 @@ struct KeyframeOptions {
   double relaxed_interval_ms =
       30;                        // and as long as the tracker says that more of them tell little, up to this
   double max_interval_ms = 100;  // a keyframe at the latest after this: IMU drift stays small in slow motion
-  int min_events = 2000;     // events that even such a keyframe needs; fewer say too little about the pose
-  double fixed_rate_hz = 0;  // 0: adaptive, as above; else frames at this rate
+  int min_events = 500;          // events that even such a keyframe needs; fewer are hardly more than noise
+  double fixed_rate_hz = 0;      // 0: adaptive, as above; else frames at this rate
   double bootstrap_interval_ms = 10;  // between the high-rate frames of bootstrapping
 };
 

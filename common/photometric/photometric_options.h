@@ -24,7 +24,7 @@ struct PhotometricOptions {
 /// All that PhotometricTracker needs to know.
 struct PhotometricTrackerOptions {
   PhotometricOptions photometric;
-  int min_events = 2000;  // a frame of fewer says too little about the pose (KeyframeOptions has the same)
+  int min_events = 2000;  // a frame of fewer says too little about the pose
   double lag_px = 0.25;   // how far events are behind the edges that cause them (SurfaceOptions has the same)
   double min_depth_m = 0.1;  // of the map in view; these four as in PointOptions and WindowOptions
   double max_depth_m = 12;

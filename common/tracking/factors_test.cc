@@ -123,7 +123,7 @@ TEST(Marginalize, EqualsTheFullLinearSystem) {
   AlignmentTerm alignment;
   alignment.hessian = 1e6 * Eigen::Matrix<double, 6, 6>::Identity();
   alignment.gradient.setConstant(20);
-  const StatePrior next = Marginalize(prior, alignment, term, i, j);
+  const StatePrior next = Marginalize(prior, alignment, KeyframeLink(term), i, j);
 
   Matrix15d Ji, Jj;
   const Vector15d r = term.Evaluate(i, j, &Ji, &Jj);

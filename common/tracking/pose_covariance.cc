@@ -8,9 +8,23 @@
 
 namespace evit {
 
-Matrix6d PoseCovariance(const Matrix15d& information) {
+namespace {
+
+// So many keyframes of a window say what one independent one would. The IMU alone carried states of ten runs
+// on recordings and of three in simulation on for a second: with 1 here their positions were off by three
+// times the variance of all terms (geometric mean; up to eight times), with 5 by 0.7 times
+// (docs/results/trials.md).
+constexpr double kAsOne = 5;
+
+Matrix15d Covariance(const Matrix15d& information) {
   const Matrix15d ridge = 1e-9 * Matrix15d(information.diagonal().cwiseMax(1e-9).asDiagonal());
-  const Matrix15d covariance = Solve(Matrix15d(information + ridge), Matrix15d(Matrix15d::Identity()));
+  return Solve(Matrix15d(information + ridge), Matrix15d(Matrix15d::Identity()));
+}
+
+}  // namespace
+
+Matrix6d PoseCovariance(const Matrix15d& information) {
+  const Matrix15d covariance = Covariance(information);
   return 0.5 * (covariance.topLeftCorner<6, 6>() + covariance.topLeftCorner<6, 6>().transpose());
 }
 
@@ -47,13 +61,10 @@ Matrix6d TimeOffsetCovariance(const Eigen::Vector3d& velocity, const Eigen::Vect
   return moved * moved.transpose();
 }
 
-Matrix6d WindowCovariance(const Matrix15d& information) {
-  // So many keyframes say what one independent one would. The IMU alone carried states of ten runs on
-  // recordings and of three in simulation on for a second: with 1 here their positions were off by three
-  // times the variance of all terms (geometric mean; up to eight times), with 5 by 0.7 times
-  // (docs/results/trials.md).
-  constexpr double kAsOne = 5;
-  return kAsOne * PoseCovariance(information);
+Matrix6d WindowCovariance(const Matrix15d& information) { return kAsOne * PoseCovariance(information); }
+
+Matrix6d MotionCovariance(const Matrix15d& information) {
+  return kAsOne * Covariance(information).block<6, 6>(6, 6);
 }
 
 void PoseUncertainty::SetAlignment(const Matrix6d& alignment, const AlignmentMisfit& misfit) {

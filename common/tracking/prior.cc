@@ -22,24 +22,21 @@ PriorTerm EvaluatePrior(const StatePrior& prior, const BodyState& state) {
   return {0.5 * d.dot(prior.information * d), gradient, weighted * J};
 }
 
-StatePrior Marginalize(const StatePrior& prior, const AlignmentTerm& alignment, const ImuTerm& imu,
+StatePrior Marginalize(const StatePrior& prior, const AlignmentTerm& alignment, const KeyframeLink& link,
                        const BodyState& i, const BodyState& j) {
-  Matrix15d Ji, Jj;
-  const Vector15d r = imu.Evaluate(i, j, &Ji, &Jj);
+  const KeyframeLink::Term joined = link.Evaluate(i, j);
   const PriorTerm known = EvaluatePrior(prior, i);
 
-  Matrix15d Hii = known.hessian + Ji.transpose() * Ji;
+  Matrix15d Hii = known.hessian + joined.hessian_ii;
   Hii.topLeftCorner<6, 6>() += alignment.hessian;
-  Vector15d gi = known.gradient + Ji.transpose() * r;
+  Vector15d gi = known.gradient + joined.gradient_i;
   gi.head<6>() += alignment.gradient;
-  const Matrix15d Hij = Ji.transpose() * Jj;
-  const Matrix15d Hjj = Jj.transpose() * Jj;
-  const Vector15d gj = Jj.transpose() * r;
+  const Matrix15d& Hij = joined.hessian_ij;
 
   StatePrior next;
-  next.information = Hjj - Hij.transpose() * Solve(Hii, Hij);
+  next.information = joined.hessian_jj - Hij.transpose() * Solve(Hii, Hij);
   next.information = 0.5 * (next.information + next.information.transpose()).eval();
-  const Vector15d g = gj - Hij.transpose() * Solve(Hii, gi);
+  const Vector15d g = joined.gradient_j - Hij.transpose() * Solve(Hii, gi);
   // The Gaussian's mean is where its gradient vanishes. A small ridge keeps unobserved directions where they
   // are.
   const Matrix15d ridge = 1e-9 * Matrix15d(next.information.diagonal().cwiseMax(1e-12).asDiagonal());

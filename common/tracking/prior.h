@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/tracking/event_alignment.h"
-#include "common/tracking/imu_term.h"
+#include "common/tracking/keyframe_link.h"
 
 namespace evit {
 
@@ -20,10 +20,10 @@ struct PriorTerm {
 };
 PriorTerm EvaluatePrior(const StatePrior& prior, const BodyState& state);
 
-/// Removes the oldest state of a chain: combines its prior, its event alignment and the IMU term to the next
-/// state, linearised at the given estimates, into a prior on the next state (Schur complement). Because
-/// neighbours are joined by IMU terms alone, no other state is touched.
-StatePrior Marginalize(const StatePrior& prior, const AlignmentTerm& alignment, const ImuTerm& imu,
+/// Removes the oldest state of a chain: combines its prior, its event alignment and what joins it to the
+/// next state, linearised at the given estimates, into a prior on the next state (Schur complement). Because
+/// only neighbours are joined, no other state is touched.
+StatePrior Marginalize(const StatePrior& prior, const AlignmentTerm& alignment, const KeyframeLink& link,
                        const BodyState& i, const BodyState& j);
 
 }  // namespace evit

@@ -10,13 +10,15 @@ void SlidingWindow::Start(std::deque<WindowNode> nodes, const StatePrior& prior)
   prior_ = prior;
 }
 
-ImuTerm SlidingWindow::Term(const WindowNode& node) const {
-  return ImuTerm(node.imu.get(), gravity_, options_.imu_noise_factor);
+KeyframeLink SlidingWindow::Link(const WindowNode& node) const {
+  const ImuTerm imu(node.imu.get(), gravity_, options_.imu_noise_factor);
+  if (!node.stood_still) return KeyframeLink(imu);
+  return KeyframeLink(imu, StandstillTerm(node.imu->dt()));
 }
 
 StatePrior SlidingWindow::Eliminate(const StatePrior& prior, const AlignmentTerm& alignment,
                                     std::size_t n) const {
-  return Marginalize(prior, alignment, Term(nodes_[n + 1]), nodes_[n].state, nodes_[n + 1].state);
+  return Marginalize(prior, alignment, Link(nodes_[n + 1]), nodes_[n].state, nodes_[n + 1].state);
 }
 
 void SlidingWindow::Push(WindowNode node) {
@@ -51,7 +53,8 @@ AlignmentTerm SlidingWindow::AlignNear(const SE3& T_map_body, WindowNode* node) 
   return local.term;
 }
 
-ChainModel SlidingWindow::ModelAt(const std::vector<BodyState>& states, const std::vector<ImuTerm>& imu) {
+ChainModel SlidingWindow::ModelAt(const std::vector<BodyState>& states,
+                                  const std::vector<KeyframeLink>& links) {
   ChainModel model(states.size());
   for (std::size_t n = 0; n < states.size(); ++n) {
     const AlignmentTerm term = AlignNear(states[n].T_map_body, &nodes_[n]);
@@ -59,14 +62,13 @@ ChainModel SlidingWindow::ModelAt(const std::vector<BodyState>& states, const st
     model.gradient[n].head<6>() += term.gradient;
     model.diagonal[n].topLeftCorner<6, 6>() += term.hessian;
     if (n == 0) continue;
-    Matrix15d before, here;
-    const Vector15d r = imu[n - 1].Evaluate(states[n - 1], states[n], &before, &here);
-    model.cost += 0.5 * r.squaredNorm();
-    model.gradient[n - 1] += before.transpose() * r;
-    model.gradient[n] += here.transpose() * r;
-    model.diagonal[n - 1] += before.transpose() * before;
-    model.diagonal[n] += here.transpose() * here;
-    model.upper[n - 1] = before.transpose() * here;
+    const KeyframeLink::Term joined = links[n - 1].Evaluate(states[n - 1], states[n]);
+    model.cost += joined.cost;
+    model.gradient[n - 1] += joined.gradient_i;
+    model.gradient[n] += joined.gradient_j;
+    model.diagonal[n - 1] += joined.hessian_ii;
+    model.diagonal[n] += joined.hessian_jj;
+    model.upper[n - 1] = joined.hessian_ij;
   }
   if (options_.first_node == WindowOptions::FirstNode::kPrior) {
     const PriorTerm prior = EvaluatePrior(prior_, states[0]);
@@ -83,17 +85,17 @@ ChainModel SlidingWindow::ModelAt(const std::vector<BodyState>& states, const st
 
 SlidingWindow::Summary SlidingWindow::Solve() {
   std::vector<BodyState> states;
-  std::vector<ImuTerm> imu;
+  std::vector<KeyframeLink> links;
   for (WindowNode& node : nodes_) {
     states.push_back(node.state);
     if (node.imu && node.imu->NeedsRepropagation(node.state.bias)) node.imu->Repropagate(node.state.bias);
-    if (states.size() > 1) imu.push_back(Term(node));
+    if (states.size() > 1) links.push_back(Link(node));
   }
   ChainOptions options;
   options.max_iterations = options_.max_iterations;
   options.time_budget = time_budget_;
   const ChainSummary summary = MinimizeChain(
-      options, [&](const std::vector<BodyState>& at) { return ModelAt(at, imu); }, &states);
+      options, [&](const std::vector<BodyState>& at) { return ModelAt(at, links); }, &states);
   const Summary result{summary.iterations, summary.usable};
   if (!result.usable) return result;
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
@@ -112,6 +114,11 @@ void SlidingWindow::DropNewestAlignment(const std::vector<BodyState>& states) {
   nodes_.back().points = {};
   nodes_.back().alignment = {};
   nodes_.back().local = {};
+}
+
+SlidingWindow::Summary SlidingWindow::HoldNewest() {
+  nodes_.back().stood_still = true;
+  return Solve();
 }
 
 Matrix15d SlidingWindow::NewestInformation() const {

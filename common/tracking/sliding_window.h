@@ -26,12 +26,13 @@ struct WindowNode {
   std::shared_ptr<const SurfaceField> field;
   AlignmentPoints points;               // of the map, in view of this keyframe
   std::shared_ptr<Preintegration> imu;  // from the previous node to this one; unused in the oldest
+  bool stood_still = false;             // since the previous node
   AlignmentTerm alignment = {};         // as of its first solve; cost 0: not yet known
   LocalAlignment local = {};            // the solver's
 };
 
 /// Joint optimisation of the last N keyframes (paper Sec. III-D): event alignment in each, IMU terms between
-/// neighbours.
+/// neighbours, and where the body stood still that it did.
 class SlidingWindow {
  public:
   struct Summary {
@@ -52,6 +53,8 @@ class SlidingWindow {
   /// Takes back what Solve() made of the newest node's surface: it keeps its IMU term alone, and all states
   /// are `states`, those before Solve(), oldest first.
   void DropNewestAlignment(const std::vector<BodyState>& states);
+  /// Says that the body stood still between the newest two nodes, and solves again.
+  Summary HoldNewest();
   /// Solve() stops after so long with the best states so far; 0: never.
   void set_time_budget(double seconds) { time_budget_ = seconds; }
 
@@ -61,12 +64,12 @@ class SlidingWindow {
   Matrix15d NewestInformation() const;
 
  private:
-  ImuTerm Term(const WindowNode& node) const;
+  KeyframeLink Link(const WindowNode& node) const;
   /// Prior on nodes_[n + 1] from everything up to nodes_[n], given the prior on nodes_[n].
   StatePrior Eliminate(const StatePrior& prior, const AlignmentTerm& alignment, std::size_t n) const;
   /// The node's alignment term for the solver, with the node at this pose.
   AlignmentTerm AlignNear(const SE3& T_map_body, WindowNode* node) const;
-  ChainModel ModelAt(const std::vector<BodyState>& states, const std::vector<ImuTerm>& imu);
+  ChainModel ModelAt(const std::vector<BodyState>& states, const std::vector<KeyframeLink>& links);
 
   AlignmentSettings alignment_;
   double gravity_;

@@ -190,7 +190,8 @@ void Tracker::Track(const KeyframeInput& keyframe, TrackerOutput* out) {
         UsefulInterval({PoseCovariance(out->information), window_.SystematicUncertainty(rate_),
                         window_.MeanInterval(), out->image_speed, alignment_.camera().width});
   } else {
-    SetMode(TrackerMode::kTracking, "coasting on the IMU: " + result.coasting);
+    SetMode(TrackerMode::kTracking,
+            result.stands_still ? "standing still" : "coasting on the IMU: " + result.coasting);
     out->quality = {};
     ReportPose({}, out);
   }

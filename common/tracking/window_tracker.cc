@@ -14,7 +14,13 @@ namespace evit {
 namespace {
 
 constexpr Utime kLongCoasting = 500'000;         // us
+constexpr Utime kProbation = 1'000'000;          // us: in which events tell that a start was false
+constexpr int kFewest = 5;                       // keyframes that it takes
 constexpr StartRange kRivalRange{0.1, 0.09, 4};  // as far as a start may be wrong
+
+double PositionSigma(const Matrix6d& covariance) {
+  return std::sqrt(covariance.topLeftCorner<3, 3>().diagonal().maxCoeff());
+}
 
 }  // namespace
 
@@ -25,14 +31,16 @@ WindowTracker::WindowTracker(const Rig& rig, const TrackerOptions& options,
       alignment_(alignment),
       points_(points),
       window_(alignment, rig.gravity, options.window),
-      uncertainty_(rig.camera, options.window) {}
+      uncertainty_(rig.camera, options.window),
+      steadiness_(rig.imu_noise) {}
 
 void WindowTracker::Start(std::deque<WindowNode> nodes, const StatePrior& prior) {
   window_.Start(std::move(nodes), prior);
   window_.Solve();
-  aligned_at_ = started_at_ = window_.nodes().back().t;
+  started_at_ = window_.nodes().back().t;
+  coasted_ = 0;
   mean_significance_ = n_significances_ = 0;
-  rivals_.Start(aligned_at_);
+  rivals_.Start(started_at_);
   SetUncertainty(window_.nodes().back());
 }
 
@@ -58,8 +66,8 @@ Utime WindowTracker::MeanInterval() const {
 
 void WindowTracker::Start(Utime t, const BodyState& state, const Matrix15d& information) {
   WindowNode node;
-  node.t = aligned_at_ = t;
-  started_at_ = 0;
+  node.t = t;
+  started_at_ = coasted_ = 0;
   rivals_.Start(t);
   node.state = state;
   // What its surface said is in the information already.
@@ -107,6 +115,7 @@ WindowNode WindowTracker::PredictedNode(const KeyframeInput& keyframe, const Eig
 
 WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, const Eigen::Vector3d& rate,
                                              TrackerOutput* out) {
+  steadiness_.Add(keyframe.imu);
   window_.Push(PredictedNode(keyframe, rate));
   std::vector<BodyState> predicted;
   for (const WindowNode& node : window_.nodes()) predicted.push_back(node.state);
@@ -119,19 +128,26 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
 
   Result result;
   const double significance = verdict.significance;
-  if (newest.points.size() > 0) AddSignificance(significance);
-  const std::string wrong = newest.points.size() > 0 ? WhyFalseStart(keyframe.t) : "";
   result.coasting = WhyCoast(keyframe, out->quality, significance);
+  const bool seen = newest.points.size() > 0;
   if (result.coasting.empty()) {
-    aligned_at_ = keyframe.t;
+    coasted_ = 0;
     SetUncertainty(newest);
   } else {
     // A surface that the map does not lie on would only pull the pose away.
     window_.DropNewestAlignment(predicted);
+    result.stands_still = StandsStill(keyframe, rate);
+    if (result.stands_still) {
+      window_.HoldNewest();
+    } else {
+      coasted_ += Interval();
+    }
   }
+  if (seen && !result.stands_still) AddSignificance(significance);
+  const std::string wrong = seen && !result.stands_still ? WhyFalseStart(keyframe.t) : "";
   ReportUncertainty(rate, out);
 
-  const std::optional<SE3> rival = keyframe.n_events >= options_.min_events
+  const std::optional<SE3> rival = keyframe.n_events >= options_.min_events && !result.stands_still
                                        ? SearchRival(keyframe, rate, !result.coasting.empty())
                                        : std::nullopt;
   const std::string impossible = WhyImplausible(newest.state, options_.failure);
@@ -139,7 +155,7 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
                    : !impossible.empty() ? impossible
                    : !wrong.empty()      ? wrong
                    : rival               ? "another pose explains the events better"
-                                         : WhyLost(result.coasting, out->covariance);
+                                         : WhyLost(result, out->covariance);
   result.restart = newest.state;
   if (!impossible.empty()) {
     // It has diverged: the prediction from the state before is the better place to look.
@@ -164,13 +180,33 @@ std::string WindowTracker::WhyCoast(const KeyframeInput& keyframe, const Alignme
   if (window_.nodes().back().points.size() < kMinPoints) return "no map points in view";
   // After long coasting the prediction leaves so much room that a pose fits noise as well as a false place
   // does. Keyframes that are far apart are no coasting.
-  const std::deque<WindowNode>& nodes = window_.nodes();
-  const bool coasted = nodes.size() > 1 && nodes[nodes.size() - 2].t > aligned_at_;
   const double fits =
-      coasted && keyframe.t - aligned_at_ > kLongCoasting ? kStartSignificance : kTrackingSignificance;
+      coasted_ > 0 && coasted_ + Interval() > kLongCoasting ? kStartSignificance : kTrackingSignificance;
   if (!LiesOnEvents(quality, options_.failure.min_contrast, significance, fits))
     return "the map does not lie on the events";
   return "";
+}
+
+// us: from the keyframe before the newest to the newest.
+Utime WindowTracker::Interval() const {
+  const std::deque<WindowNode>& nodes = window_.nodes();
+  return nodes.size() > 1 ? nodes.back().t - nodes[nodes.size() - 2].t : 0;
+}
+
+// Whether the body has stood still since the keyframe before, by the IMU alone: its events do not count.
+bool WindowTracker::StandsStill(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) const {
+  // A pose that would soon be LOST, or that a start has not confirmed, must not be kept for as long as the
+  // body stands.
+  constexpr double kKnown = 1. / 3;  // of the largest standard deviation of the position
+  const bool confirmed = started_at_ == 0 || keyframe.t - started_at_ > kProbation ||
+                         (n_significances_ >= kFewest && mean_significance_ >= kFollowSignificance);
+  if (!confirmed || keyframe.imu.size() < 2) return false;
+  const std::optional<Eigen::Vector3d> steady_rate = steadiness_.SteadyRate(keyframe.imu.front().t);
+  if (!steady_rate) return false;
+  const Matrix15d information = window_.NewestInformation();
+  const Matrix6d covariance = uncertainty_.Covariance(WindowCovariance(information), state().velocity, rate);
+  return PositionSigma(covariance) <= kKnown * options_.failure.max_position_sigma_m &&
+         MayStandStill(state(), information, *steady_rate);
 }
 
 void WindowTracker::AddSignificance(double significance) {
@@ -183,8 +219,6 @@ void WindowTracker::AddSignificance(double significance) {
 // later the IMU confirms the pose, and events may say little for a while, as where half of the map is
 // missing.
 std::string WindowTracker::WhyFalseStart(Utime t) const {
-  constexpr Utime kProbation = 1'000'000;  // us
-  constexpr int kFewest = 5;               // keyframes
   if (started_at_ == 0 || t - started_at_ > kProbation || n_significances_ < kFewest ||
       mean_significance_ >= kFollowSignificance) {
     return "";
@@ -210,12 +244,11 @@ std::optional<SE3> WindowTracker::SearchRival(const KeyframeInput& keyframe, con
 }
 
 // Why coasting cannot continue; empty where it can.
-std::string WindowTracker::WhyLost(const std::string& coasting, const Matrix6d& covariance) const {
-  if (coasting.empty()) return "";
-  const double coasted = ToSeconds(window_.nodes().back().t - aligned_at_);
-  const double sigma = std::sqrt(covariance.topLeftCorner<3, 3>().diagonal().maxCoeff());
+std::string WindowTracker::WhyLost(const Result& result, const Matrix6d& covariance) const {
+  if (result.coasting.empty() || result.stands_still) return "";
+  const double coasted = ToSeconds(coasted_), sigma = PositionSigma(covariance);
   if (coasted <= options_.failure.max_coast_s && sigma <= options_.failure.max_position_sigma_m) return "";
-  return coasting + FormatText(" for %.1f s, position known to %.2f m", coasted, sigma);
+  return result.coasting + FormatText(" for %.1f s, position known to %.2f m", coasted, sigma);
 }
 
 }  // namespace evit

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/geometry/rig.h"
+#include "common/imu/steadiness.h"
 #include "common/tracking/keyframe_input.h"
 #include "common/tracking/point_selector.h"
 #include "common/tracking/pose_covariance.h"
@@ -18,7 +19,7 @@ namespace evit {
 
 /// The tracker at work (paper Sec. III-D): each keyframe is predicted, aligned with the map together with
 /// those before it in the sliding window, and accepted or rejected. While events say nothing about the pose,
-/// the IMU alone carries it for a while.
+/// the IMU alone carries it for a while, and for any time where it says that the body stands still.
 class WindowTracker {
  public:
   /// `points` must outlive this.
@@ -34,9 +35,10 @@ class WindowTracker {
   BodyState Predict(const KeyframeInput& keyframe) const;
 
   struct Result {
-    std::string coasting;  // why the IMU alone carried the pose; empty where the events count
-    std::string failure;   // why tracking cannot continue; empty where it can
-    BodyState restart;     // where to look for the map in that case
+    std::string coasting;       // why the events do not count; empty where they do
+    bool stands_still = false;  // the body does: where the events do not count, the pose stays
+    std::string failure;        // why tracking cannot continue; empty where it can
+    BodyState restart;          // where to look for the map in that case
   };
   /// Fills what `out` says of the newest state. `rate`: rad/s, body frame.
   Result Process(const KeyframeInput& keyframe, const Eigen::Vector3d& rate, TrackerOutput* out);
@@ -61,10 +63,12 @@ class WindowTracker {
   WindowNode PredictedNode(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) const;
   std::string WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality,
                        double significance) const;
+  Utime Interval() const;
+  bool StandsStill(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) const;
   void AddSignificance(double significance);
   std::string WhyFalseStart(Utime t) const;
   std::optional<SE3> SearchRival(const KeyframeInput& keyframe, const Eigen::Vector3d& rate, bool coasting);
-  std::string WhyLost(const std::string& coasting, const Matrix6d& covariance) const;
+  std::string WhyLost(const Result& result, const Matrix6d& covariance) const;
 
   Rig rig_;
   TrackerOptions options_;
@@ -76,7 +80,8 @@ class WindowTracker {
   Utime started_at_ = 0;          // us: when bootstrapping ended; 0: resumed from a known state
   double mean_significance_ = 0;  // of the last ten keyframes or so that have events
   int n_significances_ = 0;       // averaged in mean_significance_
-  Utime aligned_at_ = 0;          // us: newest keyframe whose events the map lay on
+  Steadiness steadiness_;
+  Utime coasted_ = 0;  // us: for how long the IMU alone has carried the pose, since events fitted last
 };
 
 }  // namespace evit

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 #include "tests/helpers/tracking_bench.h"
@@ -67,6 +68,58 @@ TEST_F(WindowTrackerTest, CoastsWithoutEventsUntilItHasLastedTooLong) {
   while (t_ < begin + 350'000) result = Step({});
   EXPECT_EQ(result.failure.substr(0, 13), "no events for");
   EXPECT_EQ(result.restart.T_map_body.p, window_.state().T_map_body.p);
+}
+
+// At rest, or moving evenly: the IMU reads the same.
+class EvenMotion : public WindowTrackerTest {
+ protected:
+  // Known to 2 mm, 2 cm/s and 2 mrad/s.
+  void Start(const Eigen::Vector3d& velocity) {
+    state_.velocity = velocity;
+    Matrix15d information = Matrix15d::Zero();
+    information.diagonal() << Vector6d::Constant(2.5e5), Eigen::Vector3d::Constant(2.5e3),
+        Eigen::Vector3d::Constant(2.5e5), Eigen::Vector3d::Constant(2.5e3);
+    window_.Start(t_, state_, information);
+  }
+  WindowTracker::Result Step(int n_events, const Eigen::Vector3d& jerk = Eigen::Vector3d::Zero()) {
+    KeyframeInput keyframe = source_.Next(t_ + 50'000, synthetic::RoomPoints(60, 99));
+    keyframe.n_events = n_events;
+    const Eigen::Vector3d up(0, 0, source_.motion.gravity);
+    for (ImuSample& s : keyframe.imu)
+      s = {s.t, source_.bias.gyro, state_.T_map_body.q.conjugate() * up + source_.bias.accel + jerk};
+    t_ += 50'000;
+    out_ = {};
+    return window_.Process(keyframe, Eigen::Vector3d::Zero(), &out_);
+  }
+};
+
+TEST_F(EvenMotion, ABodyThatStandsStillStaysWhereItIs) {
+  for (const int n_events : {0, 20'000}) {  // dark, or noise that the map does not lie on
+    Start(0.02 * Eigen::Vector3d::UnitX());
+    for (int k = 0; k < 600; ++k) {  // 30 s; coasting may take 0.3 s
+      const WindowTracker::Result result = Step(n_events);
+      ASSERT_EQ(result.failure, "") << k;
+      ASSERT_NE(result.coasting, "");
+      ASSERT_EQ(result.stands_still, n_events > 0 || k >= 4)
+          << k;  // at first it is only a quarter of a second
+    }
+    EXPECT_LT((window_.state().T_map_body.p - state_.T_map_body.p).norm(), 0.02);
+    EXPECT_LT(window_.state().velocity.norm(), 0.002);
+    EXPECT_LT(std::sqrt(out_.covariance.diagonal().head<3>().maxCoeff()), 0.05);
+    EXPECT_LT(std::sqrt(out_.covariance.diagonal().tail<3>().maxCoeff()), 0.02);
+  }
+  const WindowTracker::Result jerked = Step(0, Eigen::Vector3d(0, 1, 0));
+  EXPECT_FALSE(jerked.stands_still);
+}
+
+TEST_F(EvenMotion, EvenMotionIsNoStandstill) {
+  Start(0.3 * Eigen::Vector3d::UnitX());
+  WindowTracker::Result result;
+  for (int k = 0; k < 7; ++k) {
+    result = Step(0);
+    EXPECT_FALSE(result.stands_still) << k;
+  }
+  EXPECT_EQ(result.failure.substr(0, 13), "no events for");
 }
 
 TEST_F(WindowTrackerTest, AFewEventsAreNotNone) {
