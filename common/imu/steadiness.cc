@@ -10,9 +10,9 @@ constexpr Utime kKept = 1'000'000, kShortest = 250'000;  // us
 constexpr Utime kBlock = 50'000;                         // us: means over so long tell motion from vibration
 // What a mean over a block may be off the mean of all of them: within a block it turns the body by half a
 // milliradian, or moves it by an eighth of a millimetre.
-constexpr double kMaxRate = 0.01;   // rad/s
-constexpr double kMaxForce = 0.1;   // m/s^2
-constexpr double kMostNoise = 2;  // times these limits: a rig file with large densities must not hide motion
+constexpr double kMaxRate = 0.01;  // rad/s
+constexpr double kMaxForce = 0.1;  // m/s^2
+constexpr double kMostNoise = 2;   // times these limits: a rig file with large densities must not hide motion
 
 // `limit` and three standard deviations of a block's mean.
 double Limit(double limit, double density) {

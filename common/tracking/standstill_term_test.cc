@@ -66,7 +66,7 @@ TEST(MayStandStill, ComparesVelocityAndRateWithWhatIsKnownOfThem) {
   BodyState state;
   state.bias.gyro = {0.01, 0, 0};
   Matrix15d information = Matrix15d::Identity();
-  information.diagonal().segment<3>(6).setConstant(5 / (0.02 * 0.02));     // 2 cm/s, five keyframes as one
+  information.diagonal().segment<3>(6).setConstant(5 / (0.02 * 0.02));    // 2 cm/s, five keyframes as one
   information.diagonal().segment<3>(9).setConstant(5 / (0.003 * 0.003));  // rad/s
   EXPECT_TRUE(MayStandStill(state, information, {0.015, 0, 0}));
   EXPECT_FALSE(MayStandStill(state, information, {0.03, 0, 0}));
