@@ -14,8 +14,6 @@ namespace evit {
 namespace {
 
 constexpr Utime kLongCoasting = 500'000;         // us
-constexpr Utime kProbation = 1'000'000;          // us: in which events tell that a start was false
-constexpr int kFewest = 5;                       // keyframes that it takes
 constexpr StartRange kRivalRange{0.1, 0.09, 4};  // as far as a start may be wrong
 
 double PositionSigma(const Matrix6d& covariance) {
@@ -37,10 +35,10 @@ WindowTracker::WindowTracker(const Rig& rig, const TrackerOptions& options,
 void WindowTracker::Start(std::deque<WindowNode> nodes, const StatePrior& prior) {
   window_.Start(std::move(nodes), prior);
   window_.Solve();
-  started_at_ = window_.nodes().back().t;
+  const Utime t = window_.nodes().back().t;
   coasted_ = 0;
-  mean_significance_ = n_significances_ = 0;
-  rivals_.Start(started_at_);
+  probation_.Begin(t);
+  rivals_.Start(t);
   SetUncertainty(window_.nodes().back());
 }
 
@@ -67,7 +65,8 @@ Utime WindowTracker::MeanInterval() const {
 void WindowTracker::Start(Utime t, const BodyState& state, const Matrix15d& information) {
   WindowNode node;
   node.t = t;
-  started_at_ = coasted_ = 0;
+  coasted_ = 0;
+  probation_.Skip();
   rivals_.Start(t);
   node.state = state;
   // What its surface said is in the information already.
@@ -143,8 +142,9 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
       coasted_ += Interval();
     }
   }
-  if (seen && !result.stands_still) AddSignificance(significance);
-  const std::string wrong = seen && !result.stands_still ? WhyFalseStart(keyframe.t) : "";
+  const bool tells = seen && !result.stands_still;
+  if (tells) probation_.Add(significance);
+  const std::string wrong = tells ? probation_.WhyFalse(keyframe.t) : "";
   ReportUncertainty(rate, out);
 
   const std::optional<SE3> rival = keyframe.n_events >= options_.min_events && !result.stands_still
@@ -198,32 +198,13 @@ bool WindowTracker::StandsStill(const KeyframeInput& keyframe, const Eigen::Vect
   // A pose that would soon be LOST, or that a start has not confirmed, must not be kept for as long as the
   // body stands.
   constexpr double kKnown = 1. / 3;  // of the largest standard deviation of the position
-  const bool confirmed = started_at_ == 0 || keyframe.t - started_at_ > kProbation ||
-                         (n_significances_ >= kFewest && mean_significance_ >= kFollowSignificance);
-  if (!confirmed || keyframe.imu.size() < 2) return false;
+  if (!probation_.Passed(keyframe.t) || keyframe.imu.size() < 2) return false;
   const std::optional<Eigen::Vector3d> steady_rate = steadiness_.SteadyRate(keyframe.imu.front().t);
   if (!steady_rate) return false;
   const Matrix15d information = window_.NewestInformation();
   const Matrix6d covariance = uncertainty_.Covariance(WindowCovariance(information), state().velocity, rate);
   return PositionSigma(covariance) <= kKnown * options_.failure.max_position_sigma_m &&
          MayStandStill(state(), information, *steady_rate);
-}
-
-void WindowTracker::AddSignificance(double significance) {
-  constexpr int kMean = 10;  // keyframes
-  n_significances_ = std::min(n_significances_ + 1, kMean);
-  mean_significance_ += (significance - mean_significance_) / n_significances_;
-}
-
-// Why a start that looked right is a false one; empty while it may be right. Only during the first second:
-// later the IMU confirms the pose, and events may say little for a while, as where half of the map is
-// missing.
-std::string WindowTracker::WhyFalseStart(Utime t) const {
-  if (started_at_ == 0 || t - started_at_ > kProbation || n_significances_ < kFewest ||
-      mean_significance_ >= kFollowSignificance) {
-    return "";
-  }
-  return "the map lies on the events no better than at a false pose";
 }
 
 // From time to time, looks for a pose that explains the events better than the newest keyframe's; returned

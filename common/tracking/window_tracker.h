@@ -12,6 +12,7 @@
 #include "common/tracking/pose_covariance.h"
 #include "common/tracking/rival_watch.h"
 #include "common/tracking/sliding_window.h"
+#include "common/tracking/start_probation.h"
 #include "common/tracking/tracker_options.h"
 #include "common/tracking/tracker_output.h"
 
@@ -65,8 +66,6 @@ class WindowTracker {
                        double significance) const;
   Utime Interval() const;
   bool StandsStill(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) const;
-  void AddSignificance(double significance);
-  std::string WhyFalseStart(Utime t) const;
   std::optional<SE3> SearchRival(const KeyframeInput& keyframe, const Eigen::Vector3d& rate, bool coasting);
   std::string WhyLost(const Result& result, const Matrix6d& covariance) const;
 
@@ -77,9 +76,7 @@ class WindowTracker {
   SlidingWindow window_;
   PoseUncertainty uncertainty_;
   RivalWatch rivals_;
-  Utime started_at_ = 0;          // us: when bootstrapping ended; 0: resumed from a known state
-  double mean_significance_ = 0;  // of the last ten keyframes or so that have events
-  int n_significances_ = 0;       // averaged in mean_significance_
+  StartProbation probation_;
   Steadiness steadiness_;
   Utime coasted_ = 0;  // us: for how long the IMU alone has carried the pose, since events fitted last
 };
