@@ -2,7 +2,7 @@
 # Headers are included as in the sources: "common/tracking/tracker.h".
 include(CMakePackageConfigHelpers)
 
-set(EVIT_ALGORITHMS files parallel geometry imu map events evaluation overlap diagnosis tracking localization photometric mapping calibration)
+set(EVIT_ALGORITHMS files parallel geometry imu map events alignment evaluation overlap diagnosis tracking localization photometric mapping calibration)
 foreach(NAME ${EVIT_ALGORITHMS})
   set_target_properties(evit_${NAME} PROPERTIES EXPORT_NAME ${NAME})
   install(TARGETS evit_${NAME} EXPORT evit ARCHIVE DESTINATION lib)

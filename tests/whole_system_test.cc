@@ -267,18 +267,26 @@ TEST_F(WholeSystemTest, ASecondSenderThatComesLaterIsTold) {
 
 TEST_F(WholeSystemTest, AnInterruptedCalibrationLeavesNothingBehind) {
   const std::string begin = kEvit + " calibrate --log " + kLogs + "sample.lcmlog";
-  Result calibration;
-  std::thread running([&] {
-    calibration = Shell("XDG_RUNTIME_DIR=" + folder_.string() + " " + begin + " --map " + kLogs +
-                        "sample_map.pcd --rig " + kLogs + "rig.textproto --initial-from " + kLogs +
-                        "sample_truth.tum --out " + Path("rig.textproto"));
-  });
-  EXPECT_TRUE(Eventually([&] { return fs::exists(Path("rig.textproto.evt/window_optimizer.log")); }));
-  Shell("pkill -INT -f '^" + begin + " .*" + folder_.string() + "/'");
-  running.join();
-  EXPECT_EQ(calibration.code, 130) << calibration.output;
-  EXPECT_FALSE(fs::exists(Path("rig.textproto"))) << calibration.output;
-  EXPECT_FALSE(fs::exists(Path("rig.textproto.evt"))) << calibration.output;
+  fs::create_directories(Path("there"));
+  std::ofstream(Path("there/mine")) << "x";
+  for (const auto& [option, work] :
+       {std::pair("", "rig.textproto.evt"), std::pair("--work", "a/b/c"), std::pair("--work", "there")}) {
+    Result calibration;
+    std::thread running([&, option = option, work = work] {
+      calibration = Shell("XDG_RUNTIME_DIR=" + folder_.string() + " " + begin + " --map " + kLogs +
+                          "sample_map.pcd --rig " + kLogs + "rig.textproto --initial-from " + kLogs +
+                          "sample_truth.tum --out " + Path("rig.textproto") +
+                          (*option != '\0' ? " " + std::string(option) + " " + Path(work) : ""));
+    });
+    EXPECT_TRUE(Eventually([&] { return fs::exists(Path(work) + "/window_optimizer.log"); }));
+    Shell("pkill -INT -f '^" + begin + " .*" + folder_.string() + "/'");
+    running.join();
+    EXPECT_EQ(calibration.code, 130) << calibration.output;
+    EXPECT_FALSE(fs::exists(Path("rig.textproto"))) << calibration.output;
+    EXPECT_FALSE(fs::exists(Path("rig.textproto.evt"))) << calibration.output;
+    EXPECT_FALSE(fs::exists(Path("a"))) << calibration.output;
+    EXPECT_TRUE(fs::exists(Path("there/mine"))) << calibration.output;
+  }
 }
 
 // The server that all messages go through dies while a run is at work.

@@ -66,7 +66,7 @@ void AddClocks(const Rig& rig, std::vector<Assumption>* all) {
         {FormatText("The camera's clock is some %.0f ms off", ms),
          FormatText("set `time_offset_us: %.0f` in the rig file, then let `evit calibrate` find it exactly",
                     static_cast<double>(rig.camera_time_offset) + 1e3 * ms),
-         [ms](World* w) { w->rig.camera_time_offset += std::llround(1e3 * ms); }});
+         [ms](World* w) { w->rig.camera_time_offset += std::llround(1e3 * ms); }, "time-offset"});
   }
 }
 

@@ -20,6 +20,7 @@ struct World {
 struct Assumption {
   std::string what, remedy;  // for a person
   std::function<void(World*)> make;
+  std::string check = "map-overlap";  // that it is a finding of
 };
 
 /// What is usually wrong where a map does not lie on the events, the most usual first: extrinsics inverted,

@@ -6,6 +6,9 @@
 #include <utility>
 
 #include "common/diagnosis/assumptions.h"
+#include "common/diagnosis/excerpt_views.h"
+#include "common/diagnosis/hole_check.h"
+#include "common/diagnosis/placement_check.h"
 #include "common/overlap/map_event_overlap.h"
 #include "common/text/format_text.h"
 
@@ -28,38 +31,9 @@ Trajectory Around(const Trajectory& truth, const EventExcerpts& excerpts, Utime 
 // Of every `stride`-th excerpt.
 MapEventOverlap Measure(const MapIndex& map, const World& world, const EventExcerpts& excerpts,
                         std::size_t stride = 1) {
-  MapEventOverlap sum;
-  for (std::size_t k = stride / 2; k < excerpts.instants().size(); k += stride) {
-    const Utime t = excerpts.instants()[k] + world.rig.camera_time_offset;
-    SE3 a, b, c;
-    if (!PoseAt(world.truth, t, &b) || !PoseAt(world.truth, t - 10'000, &a) ||
-        !PoseAt(world.truth, t + 10'000, &c))
-      continue;
-    // One view, in the middle of a trajectory of its own.
-    MapViewOptions options;
-    options.max_points = 1500;
-    const Trajectory way{
-        {t - options.longest, a}, {t - 10'000, a}, {t, b}, {t + 10'000, c}, {t + options.longest, c}};
-    options.step = 10 * options.longest;
-    std::vector<MapView> views = PlanViews(map, world.rig, way, options);
-    ViewFiller filler(&views);
-    if (!world.mirror_x && !world.mirror_y) {
-      filler.AddEvents(excerpts.events()[k]);
-    } else {
-      EventArray turned = excerpts.events()[k];
-      for (std::size_t e = 0; e < turned.size(); ++e) {
-        if (world.mirror_x)
-          turned.x[e] = static_cast<std::uint16_t>(world.rig.camera.width - 1 - turned.x[e]);
-        if (world.mirror_y)
-          turned.y[e] = static_cast<std::uint16_t>(world.rig.camera.height - 1 - turned.y[e]);
-      }
-      filler.AddEvents(turned);
-    }
-    OverlapOptions near;  // a pixel tells small offsets from none better than two
-    near.radius_px = 1;
-    sum.Add(MeasureOverlap(world.rig, views, near));
-  }
-  return sum;
+  MapViewOptions options;
+  options.max_points = 1500;
+  return MeasureOverlap(world.rig, ViewsOf(map, world, excerpts, stride, options), WithinAPixel());
 }
 
 // The unit in which the map lies on the events, where one does.
@@ -131,8 +105,12 @@ Findings CheckOverlap(const MapIndex& map, const Rig& rig, const Trajectory& tru
   const std::string figure =
       FormatText("%.0f %% of the points have events within a pixel (by chance %.0f %%)",
                  100 * given.point_share(), 100 * given.point_share_by_chance());
-  if (better != nullptr && best > kFits && best > 1.3 * kappa + 0.03) {
-    return {{"map-overlap", kappa < 0.5 * best ? Severity::kError : Severity::kWarning, figure,
+  const bool mended = better != nullptr && best > kFits && best > 1.3 * kappa + 0.03;
+  // What is off by some amount fits better at that amount than at the nearest of the usual ones.
+  PlacementCheck placement = CheckPlacement(map, as_is, excerpts, mended ? best : kFits);
+  if (placement.misplaced) return std::move(placement.findings);
+  if (mended) {
+    return {{better->check, kappa < 0.5 * best ? Severity::kError : Severity::kWarning, figure,
              better->what +
                  FormatText(": then the map lies on the events (%.2f instead of %.2f, of 1).", best, kappa),
              better->remedy}};
@@ -152,7 +130,10 @@ Findings CheckOverlap(const MapIndex& map, const Rig& rig, const Trajectory& tru
              "At the truth's poses the map lies on the events no better than by chance.",
              "`evit map check` shows pictures of it: another frame, another room, or a scale"}};
   }
-  return {Good("map-overlap", figure)};
+  Findings found{Good("map-overlap", figure)};
+  for (Finding& finding : placement.findings) found.push_back(std::move(finding));
+  found.push_back(CheckHoles(map, as_is, excerpts));
+  return found;
 }
 
 }  // namespace evit::diagnosis

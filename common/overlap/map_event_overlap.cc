@@ -73,7 +73,7 @@ MapEventOverlap MeasureOverlap(const Camera& camera, const SE3& T_map_camera, co
     ++overlap.points_on_events;
     overlap.offset_sum += offset;
   }
-  overlap.fired_on_map = CountNear(view.fired, painted, options.radius_px);
+  if (options.both_ways) overlap.fired_on_map = CountNear(view.fired, painted, options.radius_px);
 
   const NearestPixel on(options.radius_px);
   for (const Eigen::Vector2d& side :
@@ -89,8 +89,9 @@ MapEventOverlap MeasureOverlap(const Camera& camera, const SE3& T_map_camera, co
     }
     overlap.points_beside += 0.25 * static_cast<double>(shifted.size());
     overlap.points_on_events_beside += 0.25 * static_cast<double>(near);
-    overlap.fired_on_map_beside +=
-        0.25 * static_cast<double>(CountNear(view.fired, Painted(camera, shifted), options.radius_px));
+    if (options.both_ways)
+      overlap.fired_on_map_beside +=
+          0.25 * static_cast<double>(CountNear(view.fired, Painted(camera, shifted), options.radius_px));
   }
   return overlap;
 }

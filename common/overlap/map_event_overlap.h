@@ -12,6 +12,7 @@ struct OverlapOptions {
   double reach_px = 8;    // up to where distances and offsets are measured
   double beside_px = 15;  // by which the map is shifted to see what chance alone gives
   double border_px = 4;   // points nearer to the image's border do not count
+  bool both_ways = true;  // false: points only, several times faster; fired_on_map stays zero
 };
 
 /// How a map and events lie on each other at known poses. Counts add up over views.

@@ -208,11 +208,11 @@ std::vector<Misplacement> FindMisplacements(const Rig& rig, const Trajectory& bo
 }
 
 MapEventOverlap MeasureCorrected(const Rig& rig, const Trajectory& body, const std::vector<MapView>& views,
-                                 const Misplacement& misplacement) {
+                                 const Misplacement& misplacement, const OverlapOptions& options) {
   MapEventOverlap overlap;
   for (const MapView& view : views) {
     const Placed placed = Place(rig, body, view, misplacement.kind, misplacement.value);
-    overlap.Add(MeasureOverlap(placed.camera, placed.T_map_camera, view));
+    overlap.Add(MeasureOverlap(placed.camera, placed.T_map_camera, view, options));
   }
   return overlap;
 }

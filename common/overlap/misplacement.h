@@ -45,6 +45,6 @@ std::vector<Misplacement> FindMisplacements(const Rig& rig, const Trajectory& bo
 /// How map and events lie on each other once the misplacement is corrected, in all views. A correction that
 /// only some points suggest, by chance, does not explain what fires.
 MapEventOverlap MeasureCorrected(const Rig& rig, const Trajectory& body, const std::vector<MapView>& views,
-                                 const Misplacement& misplacement);
+                                 const Misplacement& misplacement, const OverlapOptions& options = {});
 
 }  // namespace evit

@@ -1,5 +1,5 @@
 // Recordings of other people's formats and live feeds, as far as our own parsers read them (HDF5, SQLite and
-// ROS 1 bags are libraries'). The first byte chooses.
+// whole ROS 1 bags are libraries'). The first byte chooses.
 #include <functional>
 #include <stdexcept>
 
@@ -8,6 +8,7 @@
 #include "tools/feed/feed_records.h"
 #include "tools/formats/aedat/aedat4_recording.h"
 #include "tools/formats/aedat/aedat_recording.h"
+#include "tools/formats/bag/cut_bag.h"
 #include "tools/formats/calibration_files/read_calibration.h"
 #include "tools/formats/hdf5/ecf_chunk.h"
 #include "tools/formats/import/ordered_events.h"
@@ -119,6 +120,10 @@ void Read(int which, const std::uint8_t* data, std::size_t size) {
     case 12:
       KindOfTable(file.path());
       return;
+    case 13: {
+      RosRecording recording(std::make_unique<CutBag>(file.path()), {});
+      return ReadAll(&recording);
+    }
     default:
       ReadRecords(data, size);
   }
@@ -129,7 +134,7 @@ void Read(int which, const std::uint8_t* data, std::size_t size) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   try {
-    Read(evit::fuzz::Choice(data[0], 13), data + 1, size - 1);
+    Read(evit::fuzz::Choice(data[0], 14), data + 1, size - 1);
   } catch (const std::runtime_error&) {
   }
   return 0;

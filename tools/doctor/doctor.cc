@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/alignment/event_flow.h"
 #include "common/config/rig_file.h"
+#include "common/diagnosis/accel_scale.h"
 #include "common/diagnosis/clock_checks.h"
 #include "common/diagnosis/event_checks.h"
 #include "common/diagnosis/imu_checks.h"
@@ -46,6 +48,11 @@ diagnosis::EventExcerpts Excerpts(const RecordedData& data, const Rig& rig, cons
 
 void Append(Findings* all, Findings more) {
   for (Finding& finding : more) all->push_back(std::move(finding));
+}
+
+bool AllGood(const Findings& findings) {
+  return std::all_of(findings.begin(), findings.end(),
+                     [](const Finding& f) { return f.severity == Severity::kGood; });
 }
 
 Findings CheckLog(const RecordedData& data) {
@@ -98,18 +105,23 @@ Findings Examine(const Patient& patient, const std::function<void(double)>& prog
   RecordedData data(patient.log);
   diagnosis::EventCensus events(rig.camera.width, rig.camera.height);
   diagnosis::EventExcerpts excerpts = Excerpts(data, rig, truth, patient.seconds);
+  EventFlow flow(rig.camera.width, rig.camera.height);
   std::vector<ImuSample> imu;
   data.Read(patient.seconds,
-            {[&](const EventArray& part) { events.Add(part), excerpts.Add(part); },
+            {[&](const EventArray& part) { events.Add(part), excerpts.Add(part), flow.Add(part); },
              [&](const std::vector<ImuSample>& part) { imu.insert(imu.end(), part.begin(), part.end()); },
              progress});
   // The more basic cause first: of findings that are equally bad the first one is what to mend.
   Findings found = CheckLog(data);
   Append(&found, diagnosis::CheckEvents(events));
-  Append(&found, diagnosis::CheckImu(imu, rig));
-  Append(&found, diagnosis::CheckClocks(events, imu, rig.camera_time_offset));
+  const Findings of_imu = diagnosis::CheckImu(imu, rig), of_truth = diagnosis::CheckTruth(truth, imu);
+  Append(&found, of_imu);
+  // The mean force of an IMU that is wrong otherwise says nothing.
+  if (AllGood(of_imu) && AllGood(of_truth))
+    found.push_back(diagnosis::CheckAccelScale(imu, truth, rig.gravity));
+  Append(&found, diagnosis::CheckClocks(events, flow.samples(), imu, rig.camera_time_offset));
   Append(&found, diagnosis::CheckRig(rig));
-  Append(&found, diagnosis::CheckTruth(truth, imu));
+  Append(&found, of_truth);
   if (skipped.rows > 0)
     found.push_back({"truth-order", Severity::kWarning, skipped.Text(patient.truth),
                      "Some rows of the truth cannot be used.",

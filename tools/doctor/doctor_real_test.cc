@@ -9,9 +9,9 @@
 #include <filesystem>
 
 #include "common/config/rig_file.h"
+#include "tests/helpers/doctor_faults.h"
 #include "tests/helpers/paths.h"
 #include "tests/helpers/temporary_folder.h"
-#include "tools/doctor/test_faults.h"
 #include "tools/formats/rpg/rpg_import.h"
 #include "tools/formats/vector/sequence_import.h"
 

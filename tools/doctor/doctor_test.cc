@@ -10,9 +10,9 @@
 #include "common/diagnosis/clock_checks.h"
 #include "common/diagnosis/event_checks.h"
 #include "common/diagnosis/imu_checks.h"
+#include "tests/helpers/doctor_faults.h"
 #include "tests/helpers/paths.h"
 #include "tests/helpers/temporary_folder.h"
-#include "tools/doctor/test_faults.h"
 
 namespace evit::doctor {
 namespace {
@@ -142,7 +142,7 @@ TEST(DoctorTest, LostEventsAreNoOffsetOfClocks) {
                        k % 2);
   }
   census.Add(events);
-  EXPECT_EQ(SeverityOf(diagnosis::CheckClocks(census, imu, 0), "time-offset"), Severity::kGood);
+  EXPECT_EQ(SeverityOf(diagnosis::CheckClocks(census, {}, imu, 0), "time-offset"), Severity::kGood);
   EXPECT_EQ(SeverityOf(diagnosis::CheckEvents(census), "event-gaps"), Severity::kWarning);
 }
 

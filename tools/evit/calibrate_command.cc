@@ -1,13 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 
 #include "common/config/rig_file.h"
 #include "common/config/settings_file.h"
+#include "common/files/made_folder.h"
 #include "common/geometry/pose_text.h"
 #include "tools/calibration/calibration_report.h"
 #include "tools/calibration/overlap_run.h"
@@ -44,12 +43,10 @@ std::string Track(CalibrateOptions* o) {
   job.command = "evit calibrate";
   std::printf("tracking the camera by its events alone\n");
   std::fflush(stdout);
-  const bool there_before = std::filesystem::exists(job.out);
+  const MadeFolder made(job.out);
   if (const int code = run::Run(job); code == 130) {
     // A part of the camera's motion is of no use; the folder goes unless it was there.
-    std::error_code ignored;
-    if (!there_before && std::filesystem::remove_all(job.out, ignored) > 0)
-      std::printf("interrupted: %s is removed again\n", job.out.c_str());
+    if (made.Remove()) std::printf("interrupted: %s is removed again\n", job.out.c_str());
     throw CLI::RuntimeError(code);
   }
   return job.out + "/trajectory.tum";

@@ -91,9 +91,15 @@ int ImuOf(const Aedat4Packets& packets, const std::string& camera) {
 
 }  // namespace
 
-Aedat4Recording::Aedat4Recording(const std::string& path, const std::string& events, const std::string& imu)
+Aedat4Recording::Aedat4Recording(const std::string& path, const std::string& events, const std::string& imu,
+                                 bool take_events)
     : path_(path) {
   const Aedat4Packets packets(path);
+  info_.format = std::string("AEDAT 4.0, ") + packets.compression();
+  if (!take_events) {
+    imu_ = Choose(packets, "IMUS", imu, "--imu-topic");
+    return;
+  }
   events_ = Choose(packets, "EVTS", events, "--events-topic");
   if (events_ < 0) packets.file().Fail("holds no stream of events (EVTS)");
   const AedatStream& stream = packets.streams().at(events_);
@@ -101,10 +107,10 @@ Aedat4Recording::Aedat4Recording(const std::string& path, const std::string& eve
   info_.width = stream.width;
   info_.height = stream.height;
   imu_ = imu.empty() ? ImuOf(packets, stream.source) : Choose(packets, "IMUS", imu, "--imu-topic");
-  info_.format = std::string("AEDAT 4.0, ") + packets.compression();
 }
 
 std::unique_ptr<EventSource> Aedat4Recording::Events(int width, int height) {
+  if (events_ < 0) throw std::runtime_error(path_ + ": was opened for its IMU, not for events");
   return std::make_unique<Aedat4Events>(path_, events_, width, height);
 }
 

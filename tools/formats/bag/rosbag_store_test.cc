@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/helpers/all_events.h"
 #include "tests/helpers/ros_bags.h"
 #include "tests/helpers/temporary_folder.h"
+#include "tools/formats/bag/cut_bag.h"
 #include "tools/formats/ros/ros_recording.h"
 
 namespace evit::formats {
@@ -60,6 +63,51 @@ TEST(RosbagStore, EventPacketsWithImuAndOdometryAreOneRecording) {
   EXPECT_EQ(streams.imu[0].accel, Eigen::Vector3d(4, 5, 6));
   ASSERT_EQ(streams.truth.size(), 1U);
   EXPECT_EQ(streams.truth[0].pose.p, Eigen::Vector3d(1, 2, 3));
+}
+
+// Cut anywhere, a bag gives its whole chunks, and says how much is missing.
+TEST(RosbagStore, OfABagThatIsCutOffTheWholeChunksAreRead) {
+  const TemporaryFolder folder("rosbag");
+  constexpr Utime kMessages = 3000;
+  for (const auto compression :
+       {rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+    const std::string path = folder.File("whole.bag");
+    {
+      rosbag::Bag bag(path, rosbag::bagmode::Write);
+      bag.setCompression(compression);
+      bag.setChunkThreshold(20'000);
+      for (Utime k = 0; k < kMessages; ++k) {
+        const Utime t = kStart + 1000 * k;
+        Record(&bag, "/cam", t, PacketMessage(t, 70'000 + 1000 * k));
+        Record(&bag, "/imu", t, ImuMessage({t, {1, 2, 3}, {4, 5, 6}}));
+      }
+    }
+    EXPECT_FALSE(CutBag::Recognises(path));
+    const auto whole = std::filesystem::file_size(path);
+    for (const double share : {0.3, 0.8, 0.999}) {
+      SCOPED_TRACE(testing::Message() << "compression " << compression << ", cut at " << share);
+      const std::string cut = folder.File("cut.bag");
+      std::filesystem::copy_file(path, cut, std::filesystem::copy_options::overwrite_existing);
+      std::filesystem::resize_file(cut, static_cast<std::uintmax_t>(share * static_cast<double>(whole)));
+      ASSERT_TRUE(CutBag::Recognises(cut));
+      RosRecording recording(std::make_unique<CutBag>(cut), {});
+      DropCounts dropped;
+      const EventArray e = AllEvents(&recording, 640, 480, &dropped);
+      EXPECT_TRUE(dropped.cut_off);
+      EXPECT_GT(static_cast<double>(e.size()), (share - 0.2) * kMessages);
+      if (share > 0.99) {
+        EXPECT_EQ(e.size(), std::size_t{kMessages}) << "only the index is missing";
+      } else {
+        EXPECT_LT(e.size(), std::size_t{kMessages});
+        EXPECT_NEAR(dropped.lost_share, 1 - share, 0.1);
+      }
+      EXPECT_EQ(e.t.front(), kStart);
+      // A chunk may end between the two messages of an instant.
+      EXPECT_NEAR(static_cast<double>(recording.Streams().imu.size()), static_cast<double>(e.size()), 1);
+    }
+    std::filesystem::resize_file(path, 5000);
+    EXPECT_THROW(CutBag{path}, std::runtime_error);
+  }
 }
 
 }  // namespace

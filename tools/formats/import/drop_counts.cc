@@ -11,7 +11,11 @@ std::string DropText(const DropCounts& dropped, const std::string& what) {
       dropped.sorted > 0 ? std::to_string(dropped.sorted) + " " + what + " put into order of time" : "";
   if (dropped.cut_off)
     sorted += std::string(sorted.empty() ? "" : "; ") + "the file of the " + what +
-              " is cut off: what follows its last whole packet is missing; copy it again if there is more";
+              " is cut off: what follows its last whole packet is missing" +
+              (dropped.lost_share > 0
+                   ? " (" + std::to_string(std::lround(100 * dropped.lost_share)) + " % of the file)"
+                   : "") +
+              "; copy it again if there is more";
   if (dropped.total() == 0) return sorted;
   std::string reasons;
   for (const auto& [count, reason] :

@@ -18,6 +18,7 @@ struct DropCounts {
   std::int64_t sorted = 0;     // not dropped: moved to their place in time
   bool from_one = false;       // those outside are one column or row too far, and column and row 0 are empty
   bool cut_off = false;        // the file ends within a packet; what is before it was read
+  double lost_share = 0;       // of such a file, at least, where it says how long it should be
 
   std::int64_t total() const { return late + outlier + invalid + outside + unstamped; }
   void Add(const TimeOrderCounts& order) {

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
-#include "tools/formats/alignment/clock_alignment.h"
-#include "tools/formats/alignment/event_flow.h"
+#include "common/alignment/clock_alignment.h"
+#include "common/alignment/event_flow.h"
 #include "tools/formats/hdf5/h5_recording.h"
 #include "tools/formats/hdf5/h5_streams.h"
 #include "tools/formats/recognition/recording_files.h"
@@ -99,8 +99,11 @@ ImportSummary ImportRecording(const RecordingImport& given,
   }
   RequireChoicesUsed(job);
   const StreamChoice choice = job.choice;  // each stream's is for the file that it comes from
-  if (!job.imu.empty()) job.choice.imu.clear();
-  if (!job.truth.empty()) job.choice.truth = job.choice.truth_frame = "";
+  if (!job.imu.empty()) job.choice.imu.clear(), job.choice.take_imu = false;
+  if (!job.truth.empty()) {
+    job.choice.truth = job.choice.truth_frame = "";
+    job.choice.take_truth = false;
+  }
   const std::unique_ptr<Recording> recording = OpenRecording(job.paths, job.choice);
   RecordingInfo info = recording->info();
   if (job.width > 0) {
@@ -117,7 +120,7 @@ ImportSummary ImportRecording(const RecordingImport& given,
     streams.imu.clear();
     streams.imu_name.clear();
   } else if (!job.imu.empty()) {
-    ImportStreams other = StreamsOf(job.imu, true, {"", choice.imu, "", ""});
+    ImportStreams other = StreamsOf(job.imu, true, {"", choice.imu, "", "", false, true, false});
     streams.imu = std::move(other.imu);
     streams.imu_name = job.imu;
     streams.dropped_imu = other.dropped_imu;
@@ -125,7 +128,8 @@ ImportSummary ImportRecording(const RecordingImport& given,
   if (job.truth == kNone) {
     streams.truth.clear();
   } else if (!job.truth.empty()) {
-    ImportStreams other = StreamsOf(job.truth, false, {"", "", choice.truth, choice.truth_frame});
+    ImportStreams other =
+        StreamsOf(job.truth, false, {"", "", choice.truth, choice.truth_frame, false, false, true});
     streams.truth_name = job.truth;
     streams.truth = std::move(other.truth);
     streams.dropped_truth = other.dropped_truth;

@@ -5,6 +5,7 @@
 
 #include "tests/helpers/h5_files.h"
 #include "tests/helpers/imported_log.h"
+#include "tests/helpers/ros2_bags.h"
 #include "tests/helpers/temporary_folder.h"
 
 namespace evit::formats {
@@ -94,6 +95,66 @@ TEST_F(ImportRecordingTest, AnImuFileWithoutAnImuIsRefused) {
   folder_.Write("in/imu2.txt", "0 0 0 9.81 1 2 3\n");
   EXPECT_THAT([&] { Import(); },
               ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("--imu"), HasSubstr("imu2.txt"))));
+}
+
+// A bag with two IMUs and two truths: what another file gives is no question, what it gives itself is.
+TEST_F(ImportRecordingTest, OfSeveralStreamsOnlyThoseTakenAreChosen) {
+  const std::vector<double> covariance(9, 0);
+  const auto imu = [&](Utime t, double x) {
+    return ros2::Cdr()
+        .Header(t)
+        .Doubles({0, 0, 0, 1})
+        .Doubles(covariance)
+        .Doubles({x, 0, 0})
+        .Doubles(covariance)
+        .Doubles({0, 0, 9.81})
+        .Doubles(covariance)
+        .bytes();
+  };
+  std::vector<ros2::Message> messages;
+  for (Utime t = 1'000'000; t <= 1'100'000; t += 10'000) {
+    ros2::Cdr events;
+    events.Header(t).Put(std::uint32_t{260}).Put(std::uint32_t{346}).Put(std::uint32_t{1});
+    events.Put(std::uint16_t{3}).Put(std::uint16_t{4}).Time(t).Put(std::uint8_t{1});
+    messages.push_back({"/cam/array", events.bytes(), t});
+    messages.push_back({"/imu", imu(t, 1), t});
+    messages.push_back({"/imu2", imu(t, 2), t});
+    for (const char* topic : {"/odom", "/odom2"})
+      messages.push_back({topic,
+                          ros2::Cdr()
+                              .Header(t)
+                              .Text("body")
+                              .Doubles({1, 2, 3, 0, 0, 0, 1})
+                              .Doubles(std::vector<double>(36, 0))
+                              .bytes(),
+                          t});
+  }
+  const std::string bag = folder_.File("in/two.db3");
+  ros2::WriteSqlite(bag, messages);
+  job_.paths = {bag};
+  EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(HasSubstr("--imu-topic")));
+  job_.choice.imu = "/imu2";
+  EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(HasSubstr("--truth-topic")));
+  job_.truth = folder_.Write("in/truth.tum", "1.0 0 0 0 0 0 0 1\n1.1 0 0 0 0 0 0 1\n");
+  EXPECT_EQ(Import().n_imu, 11);
+  job_.choice.imu = "";
+  job_.imu = folder_.Write("in/imu.csv",
+                           "t,gx,gy,gz,ax,ay,az\n1.00,0,0,0,0,0,9.81\n1.05,0,0,0,0,0,9.81\n"
+                           "1.10,0,0,0,0,0,9.81\n");
+  EXPECT_EQ(Import().n_imu, 3);
+
+  // As the file of one stream it is asked for that alone.
+  job_.paths = {folder_.Write("in/some.txt", "# t x y p\n1.0 3 4 1\n1.1 5 6 0\n")};
+  job_.imu = bag;
+  job_.choice.imu = "/imu";
+  EXPECT_EQ(Import().n_imu, 11);
+  job_.imu.clear(), job_.choice.imu.clear();
+  job_.truth = bag;
+  job_.choice.truth = "/odom";
+  Import();
+  EXPECT_EQ(ReadImported(job_.out).truth.size(), 11U);
+  job_.choice.truth.clear();
+  EXPECT_THAT([&] { Import(); }, ThrowsMessage<std::runtime_error>(HasSubstr("--truth-topic")));
 }
 
 }  // namespace

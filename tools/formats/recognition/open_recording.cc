@@ -10,6 +10,7 @@
 #include "common/events/known_sensors.h"
 #include "tools/formats/aedat/aedat4_recording.h"
 #include "tools/formats/aedat/aedat_recording.h"
+#include "tools/formats/bag/cut_bag.h"
 #include "tools/formats/bag/rosbag_store.h"
 #include "tools/formats/hdf5/h5_recording.h"
 #include "tools/formats/numpy/npy_recording.h"
@@ -39,7 +40,7 @@ std::unique_ptr<Recording> OpenFile(const std::string& path, const StreamChoice&
   if (!std::filesystem::is_regular_file(path))
     throw std::runtime_error(path + ": is not a file of events; " + kKnown);
   if (Aedat4Recording::Recognises(path))
-    return std::make_unique<Aedat4Recording>(path, choice.events, choice.imu);
+    return std::make_unique<Aedat4Recording>(path, choice.events, choice.imu, choice.take_events);
   if (NpyRecording::Recognises(path)) return std::make_unique<NpyRecording>(path, choice.events);
   RequireNoChoice(path, choice.events);
   if (RawRecording::Recognises(path)) return std::make_unique<RawRecording>(path);
@@ -74,6 +75,8 @@ std::unique_ptr<MessageStore> OpenBags(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (!is_ros1(path)) throw std::runtime_error(path + ": is not a ROS 1 bag, unlike " + paths.front());
   }
+  // Bags that belong together are merged by their indices.
+  if (paths.size() == 1 && CutBag::Recognises(paths.front())) return std::make_unique<CutBag>(paths.front());
   return std::make_unique<RosbagStore>(paths);
 }
 
@@ -82,7 +85,8 @@ std::unique_ptr<MessageStore> OpenBags(const std::vector<std::string>& paths) {
 std::unique_ptr<Recording> OpenRecording(const std::vector<std::string>& paths, const StreamChoice& choice) {
   if (auto bags = OpenBags(paths))
     return std::make_unique<RosRecording>(
-        std::move(bags), RosTopics{choice.events, choice.imu, choice.truth, choice.truth_frame});
+        std::move(bags), RosTopics{choice.events, choice.imu, choice.truth, choice.truth_frame,
+                                   choice.take_events, choice.take_imu, choice.take_truth});
   if (H5Recording::Recognises(paths.front())) return std::make_unique<H5Recording>(paths, choice.events);
   if (paths.size() != 1)
     throw std::runtime_error(paths[1] + ": a recording of the format of " + paths.front() +

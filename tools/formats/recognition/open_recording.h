@@ -12,6 +12,8 @@ namespace evit::formats {
 struct StreamChoice {
   std::string events, imu, truth;  // topics
   std::string truth_frame;         // of a topic of TFMessage
+  // False: it is taken from another file, so that several of its kind are no question here.
+  bool take_events = true, take_imu = true, take_truth = true;
 };
 
 /// Opens a recording of whatever format, which it recognises by the contents of its files, not by their

@@ -27,6 +27,8 @@ class MessagePass {
   virtual double share() const = 0;  // of the bag that was read, 0..1
   /// At the end: whether the file ends within a record. What is before it was read.
   virtual bool cut_off() const { return false; }
+  /// Of such a file the share that is missing, 0..1; 0: it does not say.
+  virtual double lost_share() const { return 0; }
 };
 
 struct RosTopic {

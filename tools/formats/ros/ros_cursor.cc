@@ -13,8 +13,11 @@ RosCursor::RosCursor(const std::uint8_t* data, std::size_t size, bool cdr)
     : data_(data), size_(size), cdr_(cdr) {
   if (!cdr) return;
   const std::uint8_t* how = Take(kEncapsulation, "encapsulation");
-  if (how[0] != 0 || how[1] != 1)
-    throw std::runtime_error("the message is not little-endian CDR, which alone can be read");
+  if (how[0] != 0 || how[1] > 1)
+    throw std::runtime_error("the message is serialized in a way that is not read (encapsulation " +
+                             std::to_string(how[0] << 8 | how[1]) +
+                             "; plain CDR is 0 or 1); record it with a middleware's default settings");
+  big_endian_ = how[1] == 0;
 }
 
 const std::uint8_t* RosCursor::Take(std::size_t n, const char* field) {

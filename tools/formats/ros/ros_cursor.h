@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -10,8 +12,8 @@
 namespace evit::formats {
 
 /// Walks through a serialized message of ROS 1 (packed) or ROS 2 (CDR: each number at a multiple of its size,
-/// four bytes in front that say how). Little-endian, as every robot writes. Knows where the message ends: all
-/// throw std::runtime_error naming the field that does not fit.
+/// four bytes in front that say how, and in which order of bytes). Knows where the message ends: all throw
+/// std::runtime_error naming the field that does not fit.
 class RosCursor {
  public:
   RosCursor(const std::uint8_t* data, std::size_t size, bool cdr);
@@ -20,8 +22,11 @@ class RosCursor {
   template <typename Number>
   Number Get(const char* field) {
     if (cdr_) Align(sizeof(Number), field);
+    std::array<std::uint8_t, sizeof(Number)> bytes;
+    std::memcpy(bytes.data(), Take(sizeof(Number), field), sizeof(Number));
+    if (big_endian_) std::reverse(bytes.begin(), bytes.end());
     Number value;
-    std::memcpy(&value, Take(sizeof(Number), field), sizeof value);
+    std::memcpy(&value, bytes.data(), sizeof value);
     return value;
   }
   void Doubles(int n, double* out, const char* field);
@@ -38,7 +43,7 @@ class RosCursor {
 
   const std::uint8_t* data_;
   std::size_t size_, at_ = 0;
-  bool cdr_;
+  bool cdr_, big_endian_ = false;
 };
 
 }  // namespace evit::formats

@@ -58,6 +58,7 @@ class RosEvents : public EventSource {
     DropCounts dropped = filter_.dropped();
     dropped.unstamped = packets_.unstamped();
     dropped.cut_off = pass_->cut_off();
+    dropped.lost_share = pass_->lost_share();
     return dropped;
   }
 
@@ -87,12 +88,12 @@ RosRecording::RosRecording(std::unique_ptr<MessageStore> store, const RosTopics&
     : store_(std::move(store)) {
   std::vector<std::string> types(std::begin(kEventPacketTypes), std::end(kEventPacketTypes));
   types.insert(types.end(), std::begin(kEventArrayTypes), std::end(kEventArrayTypes));
-  events_ = ChooseTopic(*store_, types, topics.events, "--events-topic");
-  imu_ = ChooseTopic(*store_, {kImuType}, topics.imu, "--imu-topic");
+  if (topics.take_events) events_ = ChooseTopic(*store_, types, topics.events, "--events-topic");
+  if (topics.take_imu) imu_ = ChooseTopic(*store_, {kImuType}, topics.imu, "--imu-topic");
   std::vector<std::string> truths(std::begin(kPoseTypes), std::end(kPoseTypes));
   if (!topics.truth.empty())
     truths.insert(truths.end(), std::begin(kTransformsTypes), std::end(kTransformsTypes));
-  truth_ = ChooseTopic(*store_, truths, topics.truth, "--truth-topic");
+  if (topics.take_truth) truth_ = ChooseTopic(*store_, truths, topics.truth, "--truth-topic");
   if (!topics.truth_frame.empty() && !IsOneOf(truth_.type, kTransformsTypes))
     throw std::runtime_error(store_->name() + ": --truth-frame " + topics.truth_frame +
                              " chooses a frame of a topic of type tf2_msgs/TFMessage; name that with "

@@ -15,6 +15,7 @@ namespace evit::formats {
 struct RosTopics {
   std::string events, imu, truth;
   std::string truth_frame;  // of a TFMessage: its child_frame_id; empty: the only one
+  bool take_events = true, take_imu = true, take_truth = true;  // false: not looked at
 };
 
 /// A recording in a ROS bag, whatever its container: events (EventArray of dvs_msgs or prophesee_event_msgs,

@@ -21,11 +21,13 @@ class FolderPass : public MessagePass {
     while (true) {
       if (pass_ && pass_->Next(message)) return true;
       cut_off_ = cut_off_ || (pass_ && pass_->cut_off());
+      if (pass_) lost_share_ += pass_->lost_share() / static_cast<double>(parts_.size());
       if (next_ == parts_.size()) return false;
       pass_ = parts_[next_++]->Read(topics_);
     }
   }
   bool cut_off() const override { return cut_off_; }
+  double lost_share() const override { return lost_share_; }
   double share() const override {
     if (!pass_) return 0;
     return (static_cast<double>(next_) - 1 + pass_->share()) / static_cast<double>(parts_.size());
@@ -37,6 +39,7 @@ class FolderPass : public MessagePass {
   std::unique_ptr<MessagePass> pass_;
   std::size_t next_ = 0;
   bool cut_off_ = false;
+  double lost_share_ = 0;
 };
 
 std::unique_ptr<MessageStore> OpenFile(const std::string& path) {

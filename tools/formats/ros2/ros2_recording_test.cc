@@ -1,12 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <lz4frame.h>
 #include <sqlite3.h>
-#include <zstd.h>
 
 #include <numeric>
 
 #include "tests/helpers/all_events.h"
+#include "tests/helpers/ros2_bags.h"
 #include "tests/helpers/temporary_folder.h"
 #include "tools/formats/ros/message_types.h"
 #include "tools/formats/ros/ros_recording.h"
@@ -15,49 +14,13 @@
 namespace evit::formats {
 namespace {
 
+using ros2::Cdr;
+using ros2::Mcap;
+using ros2::Message;
+using ros2::WriteSqlite;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-
-// Writes CDR as ROS 2 does.
-class Cdr {
- public:
-  Cdr() : bytes_(std::string("\0\1\0\0", 4)) {}
-  template <typename Number>
-  Cdr& Put(Number value) {
-    while ((bytes_.size() - 4) % sizeof value != 0) bytes_ += '\0';
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    return *this;
-  }
-  Cdr& Text(const std::string& text) {
-    Put(static_cast<std::uint32_t>(text.size() + 1));
-    bytes_.append(text.c_str(), text.size() + 1);
-    return *this;
-  }
-  Cdr& Time(Utime t) {
-    return Put(static_cast<std::int32_t>(t / kMicrosPerSecond))
-        .Put(static_cast<std::uint32_t>(t % kMicrosPerSecond * 1000));
-  }
-  Cdr& Header(Utime t, const std::string& frame = "camera") { return Time(t).Text(frame); }
-  Cdr& Doubles(const std::vector<double>& values) {
-    for (const double v : values) Put(v);
-    return *this;
-  }
-  Cdr& Raw(const std::string& bytes) {
-    Put(static_cast<std::uint32_t>(bytes.size()));
-    bytes_ += bytes;
-    return *this;
-  }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  std::string bytes_;
-};
-
-struct Message {
-  std::string topic, bytes;
-  Utime t;
-};
 
 constexpr Utime kStart = 1'700'000'000'000'000;
 
@@ -65,9 +28,9 @@ std::string Words(const std::vector<std::uint16_t>& words) {
   return {reinterpret_cast<const char*>(words.data()), 2 * words.size()};
 }
 
-std::string Packet(Utime stamp, const std::string& encoding, std::uint64_t time_base,
-                   const std::string& data) {
-  return Cdr()
+std::string Packet(Utime stamp, const std::string& encoding, std::uint64_t time_base, const std::string& data,
+                   bool big_endian = false) {
+  return Cdr(big_endian)
       .Header(stamp)
       .Put(std::uint32_t{480})
       .Put(std::uint32_t{640})
@@ -79,13 +42,8 @@ std::string Packet(Utime stamp, const std::string& encoding, std::uint64_t time_
       .bytes();
 }
 
-const std::map<std::string, std::string> kTypes = {{"/cam/events", "event_camera_msgs/msg/EventPacket"},
-                                                   {"/imu", "sensor_msgs/msg/Imu"},
-                                                   {"/odom", "nav_msgs/msg/Odometry"},
-                                                   {"/tf", "tf2_msgs/msg/TFMessage"}};
-
 // Two packets of a sensor whose clock stands at 5 s when the host's is at kStart, with IMU and truth.
-std::vector<Message> Recording() {
+std::vector<Message> Recording(bool big_endian = false) {
   std::vector<Message> messages;
   for (Utime k = 0; k < 2; ++k) {
     const Utime sensor = 5'000'000 + 10'000 * k;
@@ -93,11 +51,12 @@ std::vector<Message> Recording() {
     messages.push_back({"/cam/events",
                         Packet(kStart + 10'000 * k, "evt3", 0,
                                Words({high, static_cast<std::uint16_t>(0x6000 | (sensor & 0xFFF)), 0x0010,
-                                      0x2805, 0x2006, high})),
+                                      0x2805, 0x2006, high}),
+                               big_endian),
                         kStart + 10'000 * k + 300});
     const std::vector<double> covariance(9, 0);
     messages.push_back({"/imu",
-                        Cdr()
+                        Cdr(big_endian)
                             .Header(kStart + 5'000 * k)
                             .Doubles({0, 0, 0, 1})
                             .Doubles(covariance)
@@ -108,7 +67,7 @@ std::vector<Message> Recording() {
                             .bytes(),
                         kStart + 5'000 * k});
     messages.push_back({"/odom",
-                        Cdr()
+                        Cdr(big_endian)
                             .Header(kStart + 4'000 * k)
                             .Text("body")
                             .Doubles({1, 2, 3, 0, 0, 0, 1})
@@ -117,82 +76,6 @@ std::vector<Message> Recording() {
                         kStart + 4'000 * k});
   }
   return messages;
-}
-
-void WriteSqlite(const std::string& path, const std::vector<Message>& messages) {
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
-  const auto run = [&](const std::string& sql) {
-    ASSERT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sql;
-  };
-  run("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT, "
-      "offered_qos_profiles TEXT)");
-  run("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB)");
-  std::map<std::string, int> ids;
-  for (const auto& [topic, type] : kTypes) {
-    ids[topic] = static_cast<int>(ids.size()) + 1;
-    std::string row = "INSERT INTO topics VALUES(" + std::to_string(ids[topic]);
-    run(row.append(",'").append(topic).append("','").append(type).append("','cdr','')"));
-  }
-  for (const Message& m : messages) {
-    sqlite3_stmt* insert = nullptr;
-    sqlite3_prepare_v2(db, "INSERT INTO messages(topic_id,timestamp,data) VALUES(?,?,?)", -1, &insert,
-                       nullptr);
-    sqlite3_bind_int(insert, 1, ids[m.topic]);
-    sqlite3_bind_int64(insert, 2, 1000 * m.t);
-    sqlite3_bind_blob(insert, 3, m.bytes.data(), static_cast<int>(m.bytes.size()), SQLITE_STATIC);
-    ASSERT_EQ(sqlite3_step(insert), SQLITE_DONE);
-    sqlite3_finalize(insert);
-  }
-  sqlite3_close(db);
-}
-
-template <typename Number>
-std::string Bytes(Number value) {
-  return {reinterpret_cast<const char*>(&value), sizeof value};
-}
-std::string Text(const std::string& text) { return Bytes(static_cast<std::uint32_t>(text.size())) + text; }
-std::string Record(std::uint8_t type, const std::string& contents) {
-  return Bytes(type) + Bytes(std::uint64_t{contents.size()}) + contents;
-}
-
-std::string Compress(const std::string& compression, const std::string& in) {
-  if (compression.empty()) return in;
-  const bool lz4 = compression == "lz4";
-  std::string out(lz4 ? LZ4F_compressFrameBound(in.size(), nullptr) : ZSTD_compressBound(in.size()), '\0');
-  out.resize(lz4 ? LZ4F_compressFrame(out.data(), out.size(), in.data(), in.size(), nullptr)
-                 : ZSTD_compress(out.data(), out.size(), in.data(), in.size(), 3));
-  return out;
-}
-
-// `compression`: of the one chunk; "-": no chunk. With or without a summary.
-std::string Mcap(const std::vector<Message>& messages, const std::string& compression, bool summary) {
-  const std::string magic("\x89MCAP0\r\n", 8);
-  std::string definitions, records;
-  std::map<std::string, std::uint16_t> ids;
-  for (const auto& [topic, type] : kTypes) {
-    const auto id = static_cast<std::uint16_t>(ids.size() + 1);
-    ids[topic] = id;
-    definitions += Record(0x03, Bytes(id) + Text(type) + Text("ros2msg") + Text(""));
-    definitions += Record(0x04, Bytes(id) + Bytes(id) + Text(topic) + Text("cdr") + Bytes(std::uint32_t{0}));
-  }
-  records = definitions;
-  for (const Message& m : messages)
-    records += Record(0x05, Bytes(ids[m.topic]) + Bytes(std::uint32_t{0}) + Bytes(1000 * m.t) +
-                                Bytes(1000 * m.t) + m.bytes);
-  std::string out = magic + Record(0x01, Text("ros2") + Text("test"));
-  if (compression == "-") {
-    out += records;
-  } else {
-    const std::string packed = Compress(compression, records);
-    out += Record(0x06, Bytes(std::uint64_t{0}) + Bytes(std::uint64_t{1}) +
-                            Bytes(std::uint64_t{records.size()}) + Bytes(std::uint32_t{0}) +
-                            Text(compression) + Bytes(std::uint64_t{packed.size()}) + packed);
-  }
-  out += Record(0x0F, Bytes(std::uint32_t{0}));
-  const std::uint64_t at = summary ? out.size() : 0;
-  if (summary) out += definitions;
-  return out + Record(0x02, Bytes(at) + Bytes(std::uint64_t{0}) + Bytes(std::uint32_t{0})) + magic;
 }
 
 void ExpectWhole(const std::string& path) {
@@ -218,6 +101,57 @@ TEST(Ros2Recording, SqliteBagsAreRead) {
   const TemporaryFolder folder("ros2");
   WriteSqlite(folder.File("a.db3"), Recording());
   ExpectWhole(folder.File("a.db3"));
+}
+
+TEST(Ros2Recording, BothOrdersOfBytesAreReadOthersRefused) {
+  const TemporaryFolder folder("ros2");
+  std::vector<Message> messages = Recording(true);
+  WriteSqlite(folder.File("big.db3"), messages);
+  ExpectWhole(folder.File("big.db3"));
+  messages[0].bytes[1] = 2;  // a list of parameters
+  WriteSqlite(folder.File("list.db3"), messages);
+  EXPECT_THAT([&] { RosRecording(OpenRos2Bag(folder.File("list.db3")), {}); },
+              ThrowsMessage<std::runtime_error>(
+                  AllOf(HasSubstr("list.db3: /cam/events"), HasSubstr("encapsulation 2"))));
+}
+
+// Cut anywhere behind its first messages, such a bag gives what is whole; nearer to its beginning it is
+// refused.
+TEST(Ros2Recording, OfASqliteBagThatIsCutOffTheBeginningIsRead) {
+  const TemporaryFolder folder("ros2");
+  std::vector<Message> messages;
+  for (Utime k = 0; k < 400; ++k) {
+    for (Message m : Recording()) {
+      if (m.topic != "/cam/events") continue;
+      m.t += 20'000 * k;
+      messages.push_back(m);
+    }
+  }
+  const std::string path = folder.File("a.db3");
+  WriteSqlite(path, messages);
+  RosRecording complete(OpenRos2Bag(path), {});
+  DropCounts dropped;
+  const std::size_t all = AllEvents(&complete, 640, 480, &dropped).size();
+  EXPECT_FALSE(dropped.cut_off);
+  const auto whole = static_cast<double>(std::filesystem::file_size(path));
+  std::size_t least = 0;
+  for (const double share : {0.5, 0.8, 0.97}) {
+    const std::string cut = folder.File("cut.db3");
+    std::filesystem::copy_file(path, cut, std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::resize_file(cut, static_cast<std::uintmax_t>(share * whole));
+    RosRecording recording(OpenRos2Bag(cut), {});
+    dropped = {};
+    const std::size_t n = AllEvents(&recording, 640, 480, &dropped).size();
+    EXPECT_GT(n, least) << share;
+    EXPECT_LT(n, all) << share;
+    EXPECT_GT(static_cast<double>(n), 0.7 * share * static_cast<double>(all)) << share;
+    EXPECT_TRUE(dropped.cut_off) << share;
+    EXPECT_NEAR(dropped.lost_share, 1 - share, 0.01);
+    EXPECT_THAT(DropText(dropped, "events"), HasSubstr("% of the file"));
+    least = n;
+  }
+  std::filesystem::resize_file(path, 2000);
+  EXPECT_THAT([&] { OpenRos2Bag(path); }, ThrowsMessage<std::runtime_error>(HasSubstr("a.db3")));
 }
 
 TEST(Ros2Recording, McapFilesAreReadPlainAndInChunks) {
@@ -399,7 +333,7 @@ TEST(Ros2Recording, RealBagsAreReadWhole) {
 TEST(Ros2Recording, MessagesPackedOneByOneAreRead) {
   const TemporaryFolder folder("ros2");
   std::vector<Message> messages = Recording();
-  for (Message& m : messages) m.bytes = Compress("zstd", m.bytes);
+  for (Message& m : messages) m.bytes = ros2::Compress("zstd", m.bytes);
   WriteSqlite(folder.File("a.db3"), messages);
   ExpectWhole(folder.File("a.db3"));
   ExpectWhole(folder.Write("a.mcap", Mcap(messages, "", true)));

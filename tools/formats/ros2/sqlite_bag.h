@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,7 +10,8 @@
 
 namespace evit::formats {
 
-/// A bag of ROS 2 in SQLite (rosbag2's .db3): tables `topics` and `messages`.
+/// A bag of ROS 2 in SQLite (rosbag2's .db3): tables `topics` and `messages`. One that is shorter than its
+/// header says was cut off: its messages are read up to the first that is not whole.
 class SqliteBag : public MessageStore {
  public:
   static bool Recognises(const std::string& path);
@@ -24,7 +27,9 @@ class SqliteBag : public MessageStore {
 
  private:
   std::string path_;
+  double lost_share_;  // of the file; 0: it is whole
   std::vector<RosTopic> topics_;
+  std::map<std::int64_t, std::string> ids_;  // names of the topics
 };
 
 }  // namespace evit::formats

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
+#include "common/alignment/event_flow.h"
 #include "common/imu/imu_sample.h"
-#include "tools/formats/alignment/event_flow.h"
 
-namespace evit::formats {
+namespace evit {
 
 struct ClockAlignment {
   Utime offset = 0;      // us to add to IMU stamps to get the events' clock
@@ -19,4 +20,16 @@ struct ClockAlignment {
 ClockAlignment AlignClocks(const std::vector<FlowSample>& flow, const std::vector<ImuSample>& imu,
                            Utime guess, Utime range);
 
-}  // namespace evit::formats
+/// The same with what it is worth, for streams that should be aligned already.
+struct RotationLag {
+  Utime offset = 0;            // us to add to IMU stamps, as above
+  double sigma = 0;            // us, of that: by leaving out each eighth of the recording (jackknife)
+  double explained = 0;        // share of the image's motion that the gyro explains there, 0..1
+  double explained_as_is = 0;  // at none
+  std::size_t pairs = 0;       // of flow and gyro; 0: too few to tell
+};
+/// Within `range` us around none.
+RotationLag FindRotationLag(const std::vector<FlowSample>& flow, const std::vector<ImuSample>& imu,
+                            Utime range);
+
+}  // namespace evit

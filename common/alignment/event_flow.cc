@@ -1,10 +1,10 @@
-#include "tools/formats/alignment/event_flow.h"
+#include "common/alignment/event_flow.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace evit::formats {
+namespace evit {
 namespace {
 
 constexpr std::int64_t kFewestEvents = 300;  // events in a window
@@ -87,4 +87,4 @@ void EventFlow::Add(const EventArray& events) {
   }
 }
 
-}  // namespace evit::formats
+}  // namespace evit

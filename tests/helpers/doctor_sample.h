@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "common/diagnosis/finding.h"
 #include "common/evaluation/trajectory.h"
 #include "common/events/event.h"
 #include "common/geometry/rig.h"
 #include "common/imu/imu_sample.h"
 #include "common/map/point_map.h"
-#include "tools/doctor/doctor.h"
 
 namespace evit::doctor {
 
@@ -31,18 +31,9 @@ diagnosis::Findings ExamineSample(const Sample& sample);
 
 /// The events, IMU samples and poses of [begin, end] s after the first event.
 Sample Piece(const Sample& sample, double begin, double end);
+/// The events of the indices that are to be kept.
+void KeepEvents(Sample* sample, const std::function<bool(std::size_t)>& keep);
 /// Every `n`th event left out.
 Sample Thinned(const Sample& sample, int n);
-
-struct Fault {
-  std::string name;
-  std::string check;  // what has to be named first or second
-  std::function<void(Sample*)> make;
-  std::function<bool(const Sample&)> applies{};  // where it is one, and can show; empty: everywhere
-};
-const std::vector<Fault>& Faults();
-
-/// Whether the doctor names the fault first or second; `said`: what it says of a sick sample, a line each.
-bool IsNamed(const Fault& fault, const diagnosis::Findings& findings, std::string* said);
 
 }  // namespace evit::doctor

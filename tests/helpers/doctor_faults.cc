@@ -1,52 +1,17 @@
-#include "tools/doctor/test_faults.h"
-
-#include <unistd.h>
+#include "tests/helpers/doctor_faults.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <random>
+#include <utility>
 
-#include "common/bus/log_file.h"
-#include "common/config/rig_file.h"
-#include "common/map/map_file.h"
-#include "common/wire/event_wire.h"
-#include "common/wire/imu_wire.h"
-#include "evit/imu_batch_t.hpp"
-#include "tools/doctor/recorded_data.h"
+#include "common/geometry/so3.h"
 
 namespace evit::doctor {
 namespace {
 
 using diagnosis::Finding;
 using diagnosis::Severity;
-
-template <typename T>
-void WriteMessage(LogWriter* log, Utime utime, const std::string& channel, const T& message) {
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  log->Write(utime, channel, bytes.data(), bytes.size());
-}
-
-void WriteLog(const std::string& path, const Sample& s) {
-  LogWriter log(path);
-  std::int64_t seq = 0;
-  std::size_t next = 0;
-  for (const event_packet_t& packet : ToPackets(s.events, 1, 0)) {
-    for (; next < s.imu.size() && s.imu[next].t <= packet.utime; ++next) {
-      imu_batch_t batch = ToMessage(s.imu[next]);
-      batch.seq = seq++, batch.epoch = 1;
-      WriteMessage(&log, s.imu[next].t, "IMU", batch);
-    }
-    WriteMessage(&log, packet.utime, "EVENTS", packet);
-  }
-  for (; next < s.imu.size(); ++next) {
-    imu_batch_t batch = ToMessage(s.imu[next]);
-    batch.seq = seq++, batch.epoch = 1;
-    WriteMessage(&log, s.imu[next].t, "IMU", batch);
-  }
-  log.Close();
-}
 
 bool CameraIsApart(const Sample& s) { return s.rig.T_body_camera.p.norm() > 0.01; }
 
@@ -63,13 +28,6 @@ bool FiresEverywhere(const Sample& s) {
   return s.events.size() > 5 * static_cast<std::size_t>(s.rig.camera.width * s.rig.camera.height);
 }
 
-void KeepEvents(Sample* s, const std::function<bool(std::size_t)>& keep) {
-  EventArray kept;
-  for (std::size_t k = 0; k < s->events.size(); ++k)
-    if (keep(k)) kept.push_back(s->events.t[k], s->events.x[k], s->events.y[k], s->events.p[k]);
-  s->events = std::move(kept);
-}
-
 void SortEvents(EventArray* events) {
   std::vector<std::size_t> order(events->size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
@@ -80,58 +38,29 @@ void SortEvents(EventArray* events) {
   *events = std::move(sorted);
 }
 
+// Without the events of a rectangle, given as shares of the image.
+void SilencePixels(Sample* s, double left, double top, double right, double bottom) {
+  const int w = s->rig.camera.width, h = s->rig.camera.height;
+  KeepEvents(s, [&](std::size_t k) {
+    const int x = s->events.x[k], y = s->events.y[k];
+    return x < left * w || x >= right * w || y < top * h || y >= bottom * h;
+  });
+}
+
+void ScaleFocalLength(Sample* s, double factor) { s->rig.camera.fx *= factor, s->rig.camera.fy *= factor; }
+
+// Without what lies on one side of a plane along the optical axis in the middle of the recording; `side`: in
+// the camera's frame.
+void CutMap(Sample* s, const Eigen::Vector3d& side) {
+  const SE3 T_camera_map = (s->truth[s->truth.size() / 2].pose * s->rig.T_body_camera).Inverse();
+  std::vector<Eigen::Vector3f>& points = s->map.points;
+  points.erase(
+      std::remove_if(points.begin(), points.end(),
+                     [&](const Eigen::Vector3f& p) { return side.dot(T_camera_map * p.cast<double>()) > 0; }),
+      points.end());
+}
+
 }  // namespace
-
-Sample LoadSample(const std::string& log, const std::string& rig, const std::string& map,
-                  const std::string& truth, double seconds) {
-  Sample s;
-  RecordedData data(log);
-  data.Read(seconds, {[&s](const EventArray& part) {
-                        for (std::size_t k = 0; k < part.size(); ++k)
-                          s.events.push_back(part.t[k], part.x[k], part.y[k], part.p[k]);
-                      },
-                      [&s](const std::vector<ImuSample>& part) {
-                        s.imu.insert(s.imu.end(), part.begin(), part.end());
-                      },
-                      [](double) {}});
-  s.truth = ReadTum(truth);
-  s.map = LoadMap(map).map;
-  s.rig = LoadRig(rig);
-  return s;
-}
-
-Sample Piece(const Sample& sample, double begin, double end) {
-  const Utime first = sample.events.t.front(), from = first + std::llround(1e6 * begin),
-              to = first + std::llround(1e6 * end);
-  const auto outside = [&](const auto& s) { return s.t < from || s.t > to; };
-  Sample piece = sample;
-  KeepEvents(&piece, [&](std::size_t k) { return sample.events.t[k] >= from && sample.events.t[k] <= to; });
-  piece.imu.erase(std::remove_if(piece.imu.begin(), piece.imu.end(), outside), piece.imu.end());
-  piece.truth.erase(std::remove_if(piece.truth.begin(), piece.truth.end(), outside), piece.truth.end());
-  return piece;
-}
-
-Sample Thinned(const Sample& sample, int n) {
-  Sample thinned = sample;
-  KeepEvents(&thinned, [n](std::size_t k) { return k % static_cast<std::size_t>(n) != 0; });
-  return thinned;
-}
-
-diagnosis::Findings ExamineSample(const Sample& s) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("evit_doctor_test_" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  Patient patient;
-  patient.log = folder / "log.lcmlog", patient.rig = folder / "rig.textproto",
-  patient.map = folder / "map.pcd", patient.truth = folder / "truth.tum";
-  WriteLog(patient.log, s);
-  WriteRig(patient.rig, s.rig, "sick", "");
-  WritePcd(patient.map, s.map);
-  WriteTum(patient.truth, s.truth);
-  const diagnosis::Findings findings = Examine(patient, [](double) {});
-  std::filesystem::remove_all(folder);
-  return findings;
-}
 
 const std::vector<Fault>& Faults() {
   static const std::vector<Fault> faults{
@@ -254,12 +183,12 @@ const std::vector<Fault>& Faults() {
          for (ImuSample& i : s->imu) i.t += 3'000'000'000;
          for (StampedPose& p : s->truth) p.t += 3'000'000'000;
        }},
-      {"CameraClock40MsOff", "map-overlap",
+      {"CameraClock40MsOff", "time-offset",
        [](Sample* s) {
          for (Utime& t : s->events.t) t += 40'000;
        },
        [](const Sample& s) { return Turns(s, 0.04); }},
-      {"CameraClock60MsOff", "map-overlap",
+      {"CameraClock60MsOff", "time-offset",
        [](Sample* s) {
          for (Utime& t : s->events.t) t -= 60'000;
        }},
@@ -344,6 +273,47 @@ const std::vector<Fault>& Faults() {
       {"TruthHalfASecondOff", "truth-time",
        [](Sample* s) {
          for (StampedPose& p : s->truth) p.t -= 400'000;
+       }},
+      {"StripeOfColumnsDead", "dead-area", [](Sample* s) { SilencePixels(s, 0.55, 0, 0.63, 1); }},
+      {"StripeOfRowsDead", "dead-area", [](Sample* s) { SilencePixels(s, 0, 0.3, 1, 0.35); }},
+      {"ColumnsAtTheEdgeDead", "dead-area", [](Sample* s) { SilencePixels(s, 0, 0, 0.1, 1); },
+       FiresEverywhere},
+      {"BlockOfPixelsDead", "dead-area", [](Sample* s) { SilencePixels(s, 0.4, 0.35, 0.65, 0.6); }},
+      {"AccelerometerReadsTenPercentMore", "imu-accel-scale",
+       [](Sample* s) {
+         for (ImuSample& i : s->imu) i.accel *= 1.1;
+       }},
+      {"AccelerometerReadsFifteenPercentLess", "imu-accel-scale",
+       [](Sample* s) {
+         for (ImuSample& i : s->imu) i.accel *= 0.85;
+       }},
+      {"CameraClock50MsEarly", "time-offset",
+       [](Sample* s) {
+         for (Utime& t : s->events.t) t -= 50'000;
+       },
+       [](const Sample& s) { return Turns(s, 0.05); }},
+      {"CameraClock30MsLate", "time-offset",
+       [](Sample* s) {
+         for (Utime& t : s->events.t) t += 30'000;
+       },
+       [](const Sample& s) { return Turns(s, 0.03); }},
+      {"MapFivePercentTooLarge", "map-scale",
+       [](Sample* s) {
+         for (Eigen::Vector3f& p : s->map.points) p *= 1.05F;
+       }},
+      {"MapTenPercentTooSmall", "map-scale",
+       [](Sample* s) {
+         for (Eigen::Vector3f& p : s->map.points) p *= 0.9F;
+       }},
+      {"FocalLengthFivePercentTooLong", "intrinsics-fit", [](Sample* s) { ScaleFocalLength(s, 1.05); }},
+      {"FocalLengthTenPercentTooShort", "intrinsics-fit", [](Sample* s) { ScaleFocalLength(s, 0.9); }},
+      {"LeftHalfOfTheMapMissing", "map-holes",
+       [](Sample* s) {
+         CutMap(s, {-1, 0, 0});
+       }},
+      {"UpperHalfOfTheMapMissing", "map-holes",
+       [](Sample* s) {
+         CutMap(s, {0, -1, 0});
        }},
   };
   return faults;

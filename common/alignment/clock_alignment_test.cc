@@ -1,4 +1,4 @@
-#include "tools/formats/alignment/clock_alignment.h"
+#include "common/alignment/clock_alignment.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace evit::formats {
+namespace evit {
 namespace {
 
 using ::testing::HasSubstr;
@@ -89,4 +89,4 @@ TEST(AlignClocks, SteadyOrNoMotionIsRefused) {
 }
 
 }  // namespace
-}  // namespace evit::formats
+}  // namespace evit

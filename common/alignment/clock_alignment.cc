@@ -1,4 +1,4 @@
-#include "tools/formats/alignment/clock_alignment.h"
+#include "common/alignment/clock_alignment.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace evit::formats {
+namespace evit {
 namespace {
 
 constexpr Utime kStep = 2'000;             // us between the offsets that are tried
@@ -44,15 +44,23 @@ class GyroIntegral {
   std::vector<Eigen::Vector3d> sum_;
 };
 
+// A stretch of the flow that is left out.
+struct Skipped {
+  std::size_t begin = 0, end = 0;
+};
+
 // The share of the flow's variance that a linear function of the gyro explains, IMU stamps shifted by
-// `offset`; -1: too few pairs.
-double Explained(const std::vector<FlowSample>& flow, const GyroIntegral& gyro, Utime offset) {
+// `offset`; -1: fewer than `fewest` pairs.
+double Explained(const std::vector<FlowSample>& flow, const GyroIntegral& gyro, Utime offset,
+                 std::size_t fewest = kFewestPairs, Skipped skipped = {}) {
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   Eigen::Matrix<double, 4, 2> right = Eigen::Matrix<double, 4, 2>::Zero();
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double squares = 0, n = 0;
-  for (const FlowSample& s : flow) {
+  for (std::size_t k = 0; k < flow.size(); ++k) {
+    const FlowSample& s = flow[k];
     Eigen::Vector3d rate;
+    if (k >= skipped.begin && k < skipped.end) continue;
     if (!gyro.Mean(s.t - EventFlow::kWindow - offset, s.t + EventFlow::kWindow - offset, &rate)) continue;
     const Eigen::Vector4d x(rate.x(), rate.y(), rate.z(), 1);
     const Eigen::Vector2d v(s.vx, s.vy);
@@ -62,13 +70,22 @@ double Explained(const std::vector<FlowSample>& flow, const GyroIntegral& gyro, 
     squares += v.squaredNorm();
     ++n;
   }
-  if (n < kFewestPairs) return -1;
+  if (n < static_cast<double>(fewest)) return -1;
   const double variance = squares - sum.squaredNorm() / n;
   if (variance <= 0) return 0;
   normal.diagonal().head<3>().array() += 1e-9 * n;
   const Eigen::Matrix<double, 4, 2> solution = normal.ldlt().solve(right);
   const double residual = squares - (solution.array() * right.array()).sum();
   return std::clamp(1 - residual / variance, 0.0, 1.0);
+}
+
+// Where a parabola through the largest value and its neighbours has its top: steps from the beginning.
+double TopOf(const std::vector<double>& values) {
+  const auto best = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+  if (best == 0 || best + 1 == values.size()) return static_cast<double>(best);
+  const double left = values[best - 1], right = values[best + 1], curve = left - 2 * values[best] + right;
+  const double fraction = left >= 0 && right >= 0 && curve < 0 ? 0.5 * (left - right) / curve : 0;
+  return static_cast<double>(best) + fraction;
 }
 
 }  // namespace
@@ -104,11 +121,35 @@ ClockAlignment AlignClocks(const std::vector<FlowSample>& flow, const std::vecto
   if (rival > kRivalShare * explained[best]) why("the motion is too steady, another offset fits as well");
   if (best == 0 || best + 1 == explained.size())
     why("the best offset is at the end of the range that was searched");
-  const double left = explained[best - 1], right = explained[best + 1],
-               curve = left - 2 * explained[best] + right;
-  const double fraction = left >= 0 && right >= 0 && curve < 0 ? 0.5 * (left - right) / curve : 0;
-  return {guess - range + std::llround((static_cast<double>(best) + fraction) * static_cast<double>(kStep)),
-          explained[best]};
+  return {guess - range + std::llround(TopOf(explained) * static_cast<double>(kStep)), explained[best]};
 }
 
-}  // namespace evit::formats
+RotationLag FindRotationLag(const std::vector<FlowSample>& flow, const std::vector<ImuSample>& imu,
+                            Utime range) {
+  constexpr std::size_t kParts = 8, kFewest = 60;  // 1.2 s of flow
+  RotationLag lag;
+  if (flow.size() < kFewest || imu.size() < 2) return lag;
+  const GyroIntegral gyro(imu);
+  lag.explained_as_is = Explained(flow, gyro, 0, kFewest);
+  if (lag.explained_as_is < 0) return lag;
+  lag.pairs = flow.size();
+  const auto find = [&](Skipped skipped, double* explained) {
+    std::vector<double> shares;
+    for (Utime offset = -range; offset <= range; offset += kStep)
+      shares.push_back(Explained(flow, gyro, offset, kFewest / 2, skipped));
+    *explained = *std::max_element(shares.begin(), shares.end());
+    return TopOf(shares) * static_cast<double>(kStep) - static_cast<double>(range);
+  };
+  lag.offset = std::llround(find({}, &lag.explained));
+  std::vector<double> offsets;
+  double mean = 0, variance = 0, unused = 0;
+  for (std::size_t k = 0; k < kParts; ++k) {
+    offsets.push_back(find({flow.size() * k / kParts, flow.size() * (k + 1) / kParts}, &unused));
+    mean += offsets.back() / kParts;
+  }
+  for (const double offset : offsets) variance += (offset - mean) * (offset - mean) * (kParts - 1) / kParts;
+  lag.sigma = std::sqrt(variance);
+  return lag;
+}
+
+}  // namespace evit

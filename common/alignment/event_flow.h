@@ -5,7 +5,7 @@
 
 #include "common/events/event.h"
 
-namespace evit::formats {
+namespace evit {
 
 /// How the image as a whole moved between two windows of events.
 struct FlowSample {
@@ -38,4 +38,4 @@ class EventFlow {
   std::vector<FlowSample> samples_;
 };
 
-}  // namespace evit::formats
+}  // namespace evit

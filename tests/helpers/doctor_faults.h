@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/helpers/doctor_sample.h"
+
+namespace evit::doctor {
+
+struct Fault {
+  std::string name;
+  std::string check;  // what has to be named first or second
+  std::function<void(Sample*)> make;
+  std::function<bool(const Sample&)> applies{};  // where it is one, and can show; empty: everywhere
+};
+const std::vector<Fault>& Faults();
+
+/// Whether the doctor names the fault first or second; `said`: what it says of a sick sample, a line each.
+bool IsNamed(const Fault& fault, const diagnosis::Findings& findings, std::string* said);
+
+}  // namespace evit::doctor
