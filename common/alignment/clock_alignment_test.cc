@@ -80,6 +80,22 @@ TEST(AlignClocks, TheOffsetIsFoundWithoutExtrinsics) {
   }
 }
 
+TEST(AlignClocks, ALagComesWithItsUncertainty) {
+  const Turning turning(false);
+  const std::vector<FlowSample> flow = turning.Flow();
+  for (const Utime offset : {Utime{0}, Utime{50'000}, Utime{-30'000}}) {
+    const RotationLag lag = FindRotationLag(flow, turning.Imu(offset), 200'000);
+    EXPECT_NEAR(static_cast<double>(lag.offset - offset), 0, 3'000) << offset;
+    EXPECT_LT(lag.sigma, 3'000);
+    EXPECT_GT(lag.explained, 0.8);
+    EXPECT_LE(lag.explained_as_is, lag.explained);
+  }
+  const Turning steady(true);
+  const RotationLag lag = FindRotationLag(steady.Flow(), steady.Imu(0), 200'000);
+  EXPECT_TRUE(lag.explained < 0.5 || lag.sigma > 20'000) << lag.explained << ", " << lag.sigma;
+  EXPECT_EQ(FindRotationLag({}, steady.Imu(0), 200'000).pairs, 0U);
+}
+
 TEST(AlignClocks, SteadyOrNoMotionIsRefused) {
   const Turning turning(true);
   EXPECT_THAT([&] { AlignClocks(turning.Flow(), turning.Imu(0), 0, 2'000'000); },

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -190,21 +189,6 @@ Finding DeadPixels(const EventCensus& e) {
   return Good("dead-pixels", figure);
 }
 
-Finding DeadAreaOf(const EventCensus& e) {
-  const std::optional<DeadArea> area = FindDeadArea(e);
-  if (!area) return Good("dead-area", "no straight-edged area without events");
-  const double share =
-      static_cast<double>(area->width()) * area->height() / (static_cast<double>(e.width()) * e.height());
-  return {"dead-area", share > 0.25 ? Severity::kError : Severity::kWarning,
-          FormatText("of %d pixels along its edges %d fire (beside other silent pixels %.0f %%)",
-                     area->beside, area->beside_fired, 100 * area->usual),
-          FormatText("The pixels (%d, %d) to (%d, %d), %.1f %% of the sensor, give no events.", area->left,
-                     area->top, area->right, area->bottom, 100 * share),
-          "look for a region of interest, masked columns or rows, or a crop in camera and driver; if the "
-          "sensor is "
-          "broken there, EVIT tracks with the rest"};
-}
-
 // The share of noise: how many events have no company, of how many would have none if all were noise. In the
 // longest time in which noise of this rate would still be without company half of the time.
 Finding Noise(const EventCensus& e) {
@@ -254,7 +238,7 @@ Findings CheckEvents(const EventCensus& events) {
   for (Finding& finding :
        Findings{Gaps(events), HotPixels(events), DeadPixels(events), FlickerOf(events), Noise(events)})
     found.push_back(std::move(finding));
-  if (whole) found.push_back(DeadAreaOf(events));
+  if (whole) found.push_back(CheckDeadArea(events));
   return found;
 }
 

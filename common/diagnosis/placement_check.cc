@@ -16,8 +16,8 @@ namespace {
 
 using Kind = Misplacement::Kind;
 
-constexpr double kCertain = 4, kAlike = 2;  // standard errors
-constexpr double kLeastGain = 0.03;         // overlap, of 1
+constexpr double kCertain = 4, kLikely = 2;  // standard errors
+constexpr double kLeastGain = 0.03;          // overlap, of 1
 constexpr double kFound = 0.12,
                  kFoundByMany = 0.2;  // that one, or several, unknowns must reach: less chance finds
 
@@ -134,7 +134,7 @@ std::vector<const Fit*> Candidates(const std::vector<Fit>& fits) {
                                      [](const Fit& a, const Fit& b) { return a.overlap < b.overlap; });
   std::vector<const Fit*> alike;
   for (const Fit& fit : fits)
-    if (&fit == &*best || Better(*best, fit) < kAlike) alike.push_back(&fit);
+    if (&fit == &*best || Better(*best, fit) < kLikely) alike.push_back(&fit);
   std::sort(alike.begin(), alike.end(), [](const Fit* a, const Fit* b) {
     return a->OneUnknown() != b->OneUnknown() ? a->OneUnknown() : a->overlap > b->overlap;
   });
