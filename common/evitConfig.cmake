@@ -1,4 +1,4 @@
-# find_package(evit): evit::geometry, evit::mapping, evit::imu, evit::map, evit::events, evit::evaluation, evit::overlap, evit::diagnosis,
+# find_package(evit): evit::geometry, evit::mapping, evit::imu, evit::map, evit::events, evit::alignment, evit::evaluation, evit::overlap, evit::diagnosis,
 # evit::tracking, evit::localization, evit::photometric, evit::calibration, and evit::lcmtypes, the message types' headers (<evit/NAME.hpp>); who sends them links LCM himself.
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3)

@@ -182,5 +182,23 @@ TEST(Aedat4Recording, TheOnlyImuIsTakenWhateverItsName) {
   }
 }
 
+// Opened for its IMU alone, which camera's events are meant is no question; which IMU is one.
+TEST(Aedat4Recording, ForItsImuAloneNoCameraIsChosen) {
+  const TemporaryFolder folder("aedat4");
+  const auto file = [&](const std::string& imus) {
+    return folder.Write("a.aedat4",
+                        Header(Streams(Stream(0, "EVTS", "A") + Stream(2, "EVTS", "B") + imus), 0) +
+                            Packet(0, Message("EVTS", 1, Event(10, 1, 2, true))) + Packet(1, OneImuSample()));
+  };
+  const std::string one = file(Stream(1, "IMUS", "A"));
+  Aedat4Recording recording(one, "", "", false);
+  EXPECT_EQ(recording.Streams().imu.size(), 1U);
+  EXPECT_THROW(recording.Events(346, 260), std::runtime_error);
+  const std::string two = file(Stream(1, "IMUS", "A") + Stream(3, "IMUS", "B"));
+  EXPECT_THAT([&] { Aedat4Recording(two, "", "", false); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("--imu-topic: 1 (A), 3 (B)")));
+  EXPECT_EQ(Aedat4Recording(two, "", "A", false).Streams().imu.size(), 1U);
+}
+
 }  // namespace
 }  // namespace evit::formats
