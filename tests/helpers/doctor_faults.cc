@@ -307,6 +307,65 @@ const std::vector<Fault>& Faults() {
        }},
       {"FocalLengthFivePercentTooLong", "intrinsics-fit", [](Sample* s) { ScaleFocalLength(s, 1.05); }},
       {"FocalLengthTenPercentTooShort", "intrinsics-fit", [](Sample* s) { ScaleFocalLength(s, 0.9); }},
+      {"MostEventsOfOnePolarity", "polarity",
+       [](Sample* s) {
+         for (std::size_t k = 0; k < s->events.size(); ++k) s->events.p[k] = k % 10 == 0 ? 0 : 1;
+       }},
+      {"LampOn60HertzMains", "flicker",
+       [](Sample* s) {
+         const EventArray before = s->events;
+         for (std::size_t k = 0; k < before.size(); ++k) {
+           const double phase = 2 * M_PI * 120 * ToSeconds(before.t[k]);
+           s->events.push_back(before.t[k], before.x[k], before.y[k], std::sin(phase) > 0 ? 1 : 0);
+         }
+         SortEvents(&s->events);
+       }},
+      {"EventsLostAgainAndAgain", "event-gaps",
+       [](Sample* s) {
+         const Utime first = s->imu.front().t;
+         KeepEvents(s, [s, first](std::size_t k) { return (s->events.t[k] - first) % 500'000 > 120'000; });
+       }},
+      {"GyroRangeTooSmall", "imu-saturation",
+       [](Sample* s) {
+         for (ImuSample& i : s->imu)
+           for (int axis = 0; axis < 3; ++axis) i.gyro[axis] = std::clamp(6 * i.gyro[axis], -1.5, 1.5);
+       }},
+      {"StartPoseOutsideTheMap", "start-view",
+       [](Sample* s) {
+         s->start = s->truth.front().pose;
+         s->start->p += Eigen::Vector3d(40, 30, 0);
+       }},
+      {"StartPoseFacesNothing", "start-view",
+       [](Sample* s) {  // half a turn about the vertical, from behind all points
+         s->start = s->truth.front().pose;
+         const SE3 T_map_camera = *s->start * s->rig.T_body_camera;
+         const Eigen::Vector3d ahead = T_map_camera.q * Eigen::Vector3d::UnitZ();
+         s->start->p -= 20 * Eigen::Vector3d(ahead.x(), ahead.y(), 0);
+         s->start->q = ExpSO3({0, 0, M_PI}) * s->start->q;
+       }},
+      {"StartPoseUpsideDown", "start-tilt",
+       [](Sample* s) {  // about the optical axis: it sees the same
+         const SE3 T_body_camera = s->rig.T_body_camera;
+         s->start = s->truth.front().pose * T_body_camera * SE3(ExpSO3({0, 0, M_PI}), {0, 0, 0}) *
+                    T_body_camera.Inverse();
+       }},
+      {"NoiseFromEverywhere", "event-noise",
+       [](Sample* s) {
+         std::mt19937 random(4);
+         KeepEvents(s, [](std::size_t k) { return k % 30 == 0; });
+         const Utime begin = s->events.t.front(), end = s->events.t.back();
+         for (int n = 0; n < 200'000; ++n)
+           s->events.push_back(
+               begin + static_cast<Utime>(random() % static_cast<std::uint32_t>(end - begin)),
+               static_cast<std::uint16_t>(random() % static_cast<unsigned>(s->rig.camera.width)),
+               static_cast<std::uint16_t>(random() % static_cast<unsigned>(s->rig.camera.height)), 1);
+         for (std::size_t k = 0; k < s->events.size(); k += 2) s->events.p[k] = 0;
+         SortEvents(&s->events);
+       }},
+      {"MapTurnedAboutTheVertical", "map-overlap",
+       [](Sample* s) {
+         for (Eigen::Vector3f& p : s->map.points) p = Eigen::Vector3f(-p.y(), p.x(), p.z());
+       }},
       {"LeftHalfOfTheMapMissing", "map-holes",
        [](Sample* s) {
          CutMap(s, {-1, 0, 0});

@@ -101,6 +101,7 @@ diagnosis::Findings ExamineSample(const Sample& s) {
   WriteRig(patient.rig, s.rig, "sick", "");
   WritePcd(patient.map, s.map);
   WriteTum(patient.truth, s.truth);
+  patient.start = s.start;
   const diagnosis::Findings findings = Examine(patient, [](double) {});
   std::filesystem::remove_all(folder);
   return findings;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct Sample {
   Trajectory truth;
   PointMap map;
   Rig rig;
+  std::optional<SE3> start{};  // T_map_body, as a user gives it; none: the truth's
 };
 
 /// Of four files; the first `seconds` of the log.

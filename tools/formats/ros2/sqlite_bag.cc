@@ -197,9 +197,10 @@ SqliteBag::SqliteBag(const std::string& path) : path_(path), lost_share_(CutData
   db.Prepare("SELECT name, type, serialization_format, id FROM topics NOT INDEXED");
   while (db.Step()) {
     ids_[db.Integer(3)] = db.Text(0);
-    const std::string type = Ros1TypeName(db.Text(1)), encoding = db.Text(2);
-    topics_.push_back(
-        {db.Text(0), encoding == "cdr" ? type : type + " as " + encoding + ", which is not read"});
+    std::string type = Ros1TypeName(db.Text(1));
+    const std::string encoding = db.Text(2);
+    if (encoding != "cdr") type.append(" as ").append(encoding).append(", which is not read");
+    topics_.push_back({db.Text(0), type});
   }
   std::sort(topics_.begin(), topics_.end(),
             [](const RosTopic& a, const RosTopic& b) { return a.name < b.name; });
