@@ -186,9 +186,10 @@ MapSummary Summarize(const PointMap& map) {
                      values.end());
     summary.median[axis] = values[values.size() / 2];
   }
-  // Nearest neighbours of some 200 points among all: exact, and no index needed.
+  // Nearest neighbours of some points among all: exact, and no index needed.
+  constexpr std::size_t kSome = 100;
   std::vector<float> nearest;
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / 200);
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kSome);
   for (std::size_t k = 0; k < points.size() && points.size() > 1; k += stride)
     nearest.push_back(NearestSquared(points, k));
   if (!nearest.empty()) {

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "common/map/cell_order.h"
 #include "common/map/occlusion.h"
 #include "common/map/spread_subset.h"
 #include "common/map/view_projector.h"
@@ -13,8 +14,7 @@
 namespace evit {
 namespace {
 
-constexpr float kCell = 0.25F;     // m: a cell's bounding sphere is small against the view, yet cells are few
-constexpr float kFarthest = 1e9F;  // cells: strays beyond share the last one, whose index an int still holds
+constexpr double kCell = 0.25;  // m: a cell's bounding sphere is small against the view, yet cells are few
 
 struct Cell {
   Eigen::Vector3f center;
@@ -82,27 +82,17 @@ MapIndex::MapIndex(PointMap map) : impl_(std::make_unique<Impl>()) {
   Impl& m = *impl_;
   m.map = std::move(map);
   const auto& points = m.map.points;
-  // Cell and id of each point, sorted by both.
-  std::vector<std::array<std::int32_t, 4>> keys;
-  keys.reserve(points.size());
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Eigen::Vector3f c = (points[k] / kCell).array().floor().max(-kFarthest).min(kFarthest);
-    keys.push_back({static_cast<std::int32_t>(c.x()), static_cast<std::int32_t>(c.y()),
-                    static_cast<std::int32_t>(c.z()), static_cast<std::int32_t>(k)});
-  }
-  std::sort(keys.begin(), keys.end());
+  const CellOrder order(points, kCell);
   m.ids.reserve(points.size());
   m.ordered.Resize(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
-    m.ids.push_back(keys[k][3]);
+    m.ids.push_back(order[k].index);
     m.ordered.Set(k, points[m.ids[k]]);
   }
-
   for (std::size_t begin = 0; begin < m.ids.size();) {
-    std::size_t end = begin;
+    const std::size_t end = order.EndOfCell(begin);
     Eigen::AlignedBox3f box;
-    while (end < m.ids.size() && std::equal(keys[end].begin(), keys[end].begin() + 3, keys[begin].begin()))
-      box.extend(m.ordered.At(end++));
+    for (std::size_t k = begin; k < end; ++k) box.extend(m.ordered.At(k));
     // The margin covers what single precision loses when the cell is turned into the camera's frame.
     const float slack = 1e-4F + 1e-6F * box.center().norm();
     m.cells.push_back({box.center(), 0.5F * box.diagonal().norm() + slack, static_cast<std::int32_t>(begin),
@@ -155,12 +145,11 @@ VisibilityAnswer MapIndex::Query(const VisibilityQuery& query) const {
   const auto ranges = CellsInView(query, T_camera_map);
   std::size_t room = 1, n = 0;
   for (const auto& [begin, end] : ranges) room += end - begin;
-  // Not cleared: megabytes.
-  const std::unique_ptr<ProjectedPoint[]> in_view(new ProjectedPoint[room]);
+  std::vector<ProjectedPoint> seen(room);
   for (const auto& [begin, end] : ranges) {
-    n += projector.Project(impl_->ordered, impl_->ids.data(), begin, end, in_view.get() + n);
+    n += projector.Project(impl_->ordered, impl_->ids.data(), begin, end, seen.data() + n);
   }
-  std::vector<ProjectedPoint> seen(in_view.get(), in_view.get() + n);
+  seen.resize(n);
   if (query.occlusion) RemoveOccluded(query.camera, query.margin_px, &seen);
 
   VisibilityAnswer answer;

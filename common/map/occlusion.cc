@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/simd/lanes.h"
+
 namespace evit {
 namespace {
 
@@ -20,9 +22,24 @@ struct DepthGrid {
       : stride(columns + 2 * kReach),
         first(static_cast<std::size_t>(stride) * (rows + 2 * kReach), kNone),
         second(first) {}
+
+  void Add(std::int32_t cell, float depth) {
+    const float nearest = first[cell];
+    second[cell] = std::min(second[cell], std::max(nearest, depth));
+    first[cell] = std::min(nearest, depth);
+  }
+
   int stride;
   std::vector<float> first, second;
 };
+
+EVIT_MULTIVERSION void FindCells(const ProjectedPoint* points, std::size_t n, float margin, int stride,
+                                 std::int32_t* __restrict cell) {
+  for (std::size_t k = 0; k < n; ++k) {
+    cell[k] = (static_cast<int>((points[k].pixel[1] + margin) * (1 / kCell)) + kReach) * stride +
+              static_cast<int>((points[k].pixel[0] + margin) * (1 / kCell)) + kReach;
+  }
+}
 
 // out[k] = the two smallest of a[k] and b[k + shift], for all k but the last `shift`.
 void Merge(const DepthGrid& a, const DepthGrid& b, int shift, DepthGrid* out) {
@@ -76,21 +93,20 @@ void RemoveOccluded(const Camera& camera, double margin_px, std::vector<Projecte
   const auto margin = static_cast<float>(margin_px);
   const int columns = static_cast<int>((static_cast<float>(camera.width) + 2 * margin) / kCell) + 2;
   const int rows = static_cast<int>((static_cast<float>(camera.height) + 2 * margin) / kCell) + 2;
-  DepthGrid cells(columns, rows);
-  const auto cell_of = [&](const ProjectedPoint& p) {
-    return (static_cast<int>((p.pixel.y() + margin) * (1 / kCell)) + kReach) * cells.stride +
-           static_cast<int>((p.pixel.x() + margin) * (1 / kCell)) + kReach;
-  };
-  for (const ProjectedPoint& p : *points) {
-    const int k = cell_of(p);
-    const float first = cells.first[k];
-    cells.second[k] = std::min(cells.second[k], std::max(first, p.depth));
-    cells.first[k] = std::min(first, p.depth);
-  }
-  const std::vector<float> hiding = HidingDepths(cells, columns, rows);
+  // Points come in the order of their places: successive ones show in the same cells. In two grids by turns
+  // they do not wait for each other.
+  DepthGrid cells(columns, rows), others(columns, rows);
+  std::vector<std::int32_t> cell(points->size());
+  FindCells(points->data(), points->size(), margin, cells.stride, cell.data());
+  for (std::size_t k = 0; k < points->size(); ++k)
+    (k % 2 == 0 ? cells : others).Add(cell[k], (*points)[k].depth);
+  DepthGrid all(columns, rows);
+  Merge(cells, others, 0, &all);
+  const std::vector<float> hiding = HidingDepths(all, columns, rows);
   ProjectedPoint* kept = points->data();
-  for (const ProjectedPoint& p : *points) {  // no branch: hard to predict
-    const bool hidden = hiding[cell_of(p)] < std::min(p.depth * (1 - kRelative), p.depth - kAbsolute);
+  for (std::size_t k = 0; k < points->size(); ++k) {  // no branch: hard to predict
+    const ProjectedPoint p = (*points)[k];
+    const bool hidden = hiding[cell[k]] < std::min(p.depth * (1 - kRelative), p.depth - kAbsolute);
     *kept = p;
     kept += hidden ? 0 : 1;
   }

@@ -10,6 +10,10 @@ namespace evit {
 
 /// A map point in view.
 struct ProjectedPoint {
+  ProjectedPoint() {}  // NOLINT(modernize-use-equals-default): vectors of many are not cleared first
+  ProjectedPoint(std::int32_t an_id, const Eigen::Vector2f& a_pixel, float a_depth)
+      : id(an_id), pixel(a_pixel), depth(a_depth) {}
+
   std::int32_t id;  // index into the map
   Eigen::Vector2f pixel;
   float depth;  // m, along the optical axis

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "common/simd/lanes.h"
+
 namespace evit {
 namespace {
 
@@ -12,12 +14,28 @@ constexpr float kTile = 32;  // pixels
 
 // What a draw is decided by: random number, then id (no two points tie).
 struct Draw {
-  std::uint64_t number;
+  std::uint32_t number;
   std::int32_t id, place;
   bool operator<(const Draw& other) const {
     return number != other.number ? number < other.number : id < other.id;
   }
 };
+
+// For each point its tile, and a random number: the finalizer of MurmurHash3, of 32 bits so that several fit
+// a vector.
+EVIT_MULTIVERSION void NumberPoints(const ProjectedPoint* points, std::size_t n, float margin,
+                                    std::int32_t columns, std::uint32_t seed, std::int32_t* __restrict tile,
+                                    std::uint32_t* __restrict number) {
+  for (std::size_t k = 0; k < n; ++k) {
+    const ProjectedPoint& p = points[k];
+    tile[k] = static_cast<std::int32_t>((p.pixel[1] + margin) * (1 / kTile)) * columns +
+              static_cast<std::int32_t>((p.pixel[0] + margin) * (1 / kTile));
+    std::uint32_t x = static_cast<std::uint32_t>(p.id) ^ seed;
+    x = (x ^ (x >> 16)) * 0x85ebca6bU;
+    x = (x ^ (x >> 13)) * 0xc2b2ae35U;
+    number[k] = x ^ (x >> 16);
+  }
+}
 
 // The points that may be drawn, tile by tile.
 struct Draws {
@@ -29,18 +47,15 @@ struct Draws {
   }
 };
 
-// Those whose number lies within the bound of their tile (`tile`: of each point).
+// Those whose number lies within the bound of their tile (`tile`, `number`: of each point).
 Draws DrawPoints(const std::vector<ProjectedPoint>& points, const std::vector<std::int32_t>& tile,
-                 const std::vector<std::uint64_t>& bound, std::uint64_t seed) {
-  const std::uint64_t base = Mix(seed);
-  // A fraction of the points: found in one go over all of them, without a branch, which would be hard to
-  // predict.
+                 const std::vector<std::uint32_t>& number, const std::vector<std::uint32_t>& bound) {
+  // Found in one go over all of them, without a branch, which would be hard to predict.
   const std::unique_ptr<Draw[]> drawn(new Draw[points.size() + 1]);
   std::size_t n = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const std::uint64_t number = Mix(base ^ static_cast<std::uint64_t>(points[k].id));
-    drawn[n] = {number, points[k].id, static_cast<std::int32_t>(k)};
-    n += number <= bound[tile[k]] ? 1 : 0;
+    drawn[n] = {number[k], points[k].id, static_cast<std::int32_t>(k)};
+    n += number[k] <= bound[tile[k]] ? 1 : 0;
   }
   Draws draws;
   draws.begin.assign(bound.size() + 1, 0);
@@ -88,41 +103,46 @@ std::vector<std::int32_t> SpreadSubset(const std::vector<ProjectedPoint>& points
   const int columns = static_cast<int>((static_cast<float>(area.width) + 2 * margin) / kTile) + 2;
   const int rows = static_cast<int>((static_cast<float>(area.height) + 2 * margin) / kTile) + 2;
   std::vector<std::int32_t> tile(points.size()), counts(static_cast<std::size_t>(columns) * rows, 0);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    tile[k] = static_cast<std::int32_t>((points[k].pixel.y() + margin) * (1 / kTile)) * columns +
-              static_cast<std::int32_t>((points[k].pixel.x() + margin) * (1 / kTile));
-    ++counts[tile[k]];
-  }
+  std::vector<std::uint32_t> number(points.size());
+  NumberPoints(points.data(), points.size(), margin, columns, static_cast<std::uint32_t>(Mix(seed)),
+               tile.data(), number.data());
+  for (const std::int32_t t : tile) ++counts[t];
   const std::size_t quota = Quota(counts, budget);
 
-  // A point whose number lies far above its tile's quota cannot be drawn: what is sorted is little more than
-  // what is returned. The bound is four standard deviations above what the quota needs; should a tile come
-  // out short (it does not in practice), its points are all taken into the draw.
-  std::vector<std::uint64_t> bound(counts.size());
+  // A point whose number lies far above its tile's quota cannot be drawn: little more is looked at closely
+  // than what is returned. The bound is four standard deviations above what the quota needs; should a tile
+  // come out short (it does not in practice), its points are all taken into the draw.
+  constexpr std::uint32_t kAll = ~std::uint32_t{0};
+  std::vector<std::uint32_t> bound(counts.size());
   for (std::size_t t = 0; t < counts.size(); ++t) {
     const double expected = static_cast<double>(quota) + 1;
     const double share = (expected + 4 * std::sqrt(expected) + 4) / std::max(counts[t], 1);
-    bound[t] = share >= 1 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(share * 0x1p64);
+    bound[t] = share >= 1 ? kAll : static_cast<std::uint32_t>(share * 0x1p32);
   }
-  Draws draws = DrawPoints(points, tile, bound, seed);
+  Draws draws = DrawPoints(points, tile, number, bound);
   for (std::size_t t = 0; t < counts.size(); ++t) {
     if (draws.Count(t) >= std::min<std::size_t>(counts[t], quota + 1)) continue;
-    std::fill(bound.begin(), bound.end(), ~std::uint64_t{0});
-    draws = DrawPoints(points, tile, bound, seed);
+    std::fill(bound.begin(), bound.end(), kAll);
+    draws = DrawPoints(points, tile, number, bound);
     break;
   }
 
   std::vector<Draw> next;  // each rich tile's first point beyond the quota
   places.reserve(budget);
+  std::vector<Draw> ordered;
   for (std::size_t t = 0; t < counts.size(); ++t) {
     const auto begin = draws.list.begin() + draws.begin[t], end = draws.list.begin() + draws.begin[t + 1];
-    const auto stop = begin + static_cast<std::ptrdiff_t>(std::min(quota, draws.Count(t)));
-    if (stop != end) {
-      std::nth_element(begin, stop, end);
-      next.push_back(*stop);
+    if (draws.Count(t) <= quota) {
+      for (auto k = begin; k != end; ++k) places.push_back(k->place);
+      continue;
     }
-    std::sort(begin, stop);
-    for (auto k = begin; k != stop; ++k) places.push_back(k->place);
+    ordered.assign(begin, end);
+    const auto first_left = ordered.begin() + static_cast<std::ptrdiff_t>(quota);
+    std::nth_element(ordered.begin(), first_left, ordered.end());
+    next.push_back(*first_left);
+    for (auto k = begin; k != end; ++k) {
+      if (*k < *first_left) places.push_back(k->place);
+    }
   }
   // Points that still fit: each from another of the tiles with more than the quota.
   std::sort(next.begin(), next.end());

@@ -15,8 +15,8 @@ struct ScreenArea {
 
 /// A seeded random subset of at most `budget` points, spread over the image: every tile of 32x32 pixels may
 /// give the same number of points, and those it gives are drawn at random, so that a densely mapped spot does
-/// not eat the budget. Returns places in `points`, tile by tile. Which points are drawn depends on their ids
-/// and pixels and the seed alone, not on their order.
+/// not eat the budget. Returns places in `points`, tile by tile, ascending in each but for some last ones.
+/// Which points are drawn depends on their ids and pixels and the seed alone, not on their order.
 std::vector<std::int32_t> SpreadSubset(const std::vector<ProjectedPoint>& points, const ScreenArea& area,
                                        std::size_t budget, std::uint64_t seed);
 
