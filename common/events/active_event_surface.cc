@@ -11,10 +11,9 @@ constexpr Utime kMaxRelative = 1'000'000'000;
 
 }  // namespace
 
-ActiveEventSurface::ActiveEventSurface(int width, int height)
-    : width_(width), height_(height), pixels_(std::ptrdiff_t{width} * height) {
+ActiveEventSurface::ActiveEventSurface(int width, int height) : width_(width), height_(height) {
   if (width <= 0 || height <= 0) throw std::invalid_argument("surface of active events: empty image");
-  stamps_.assign(2 * pixels_, kNever);
+  stamps_.assign(std::size_t(width) * height, kNever);
 }
 
 void ActiveEventSurface::Clear() {
@@ -40,20 +39,19 @@ std::int32_t ActiveEventSurface::Relative(Utime t) const {
 }
 
 void ActiveEventSurface::Update(const Utime* t, const std::uint16_t* x, const std::uint16_t* y,
-                                const std::uint8_t* polarity, std::size_t n) {
+                                std::size_t n) {
   for (std::size_t begin = 0; begin < n;) {
     if (!has_base_ || t[begin] - base_ >= kMaxRelative) MoveBase(t[begin]);
     const std::size_t end =
         t[n - 1] - base_ < kMaxRelative ? n : std::lower_bound(t + begin, t + n, base_ + kMaxRelative) - t;
-    UpdateWithinBase(t + begin, x + begin, y + begin, polarity + begin, end - begin);
+    UpdateWithinBase(t + begin, x + begin, y + begin, end - begin);
     begin = end;
   }
 }
 
 void ActiveEventSurface::UpdateWithinBase(const Utime* t, const std::uint16_t* x, const std::uint16_t* y,
-                                          const std::uint8_t* polarity, std::size_t n) {
+                                          std::size_t n) {
   const auto width = static_cast<unsigned>(width_), height = static_cast<unsigned>(height_);
-  const auto pixels = static_cast<unsigned>(pixels_);
   const Utime base = base_;
   std::int32_t* const stamps = stamps_.data();
   std::int64_t outside = 0;
@@ -62,7 +60,7 @@ void ActiveEventSurface::UpdateWithinBase(const Utime* t, const std::uint16_t* x
       ++outside;
       continue;
     }
-    stamps[(polarity[i] != 0 ? pixels : 0U) + y[i] * width + x[i]] = static_cast<std::int32_t>(t[i] - base);
+    stamps[y[i] * width + x[i]] = static_cast<std::int32_t>(t[i] - base);
   }
   outside_ += outside;
 }

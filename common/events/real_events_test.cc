@@ -39,7 +39,7 @@ SurfaceRenderer::Image Draw(const EventArray& events, Utime t, Side side) {
   std::size_t middle = 0;
   while (middle < events.size() && events.t[middle] <= t) ++middle;
   if (side != Side::kAfter) {
-    surface.Update(events.t.data(), events.x.data(), events.y.data(), events.p.data(), middle);
+    surface.Update(events.t.data(), events.x.data(), events.y.data(), middle);
   }
   SurfaceRenderer renderer(kSensorWidth, kSensorHeight, options);
   SurfaceRenderer::View view;

@@ -44,8 +44,7 @@ SurfaceRenderer::Image SurfaceRenderer::Render(const ActiveEventSurface& surface
 }
 
 void SurfaceRenderer::FillDistances(const ActiveEventSurface& surface, const View& view) {
-  QuantizeDistances(surface.stamps(0), surface.stamps(1), distances_.size(), surface.Relative(view.t), shift_,
-                    distances_.data());
+  QuantizeDistances(surface.stamps(), distances_.size(), surface.Relative(view.t), shift_, distances_.data());
   std::uint16_t* const out = distances_.data();
   for (std::size_t i = view.begin; view.after != nullptr && i < view.end; ++i) {
     const EventArray& e = *view.after;

@@ -51,7 +51,7 @@ TEST_P(RenderTest, WithinOneGreyLevelOfPlainReference) {
   const std::size_t end =
       std::upper_bound(events.t.begin(), events.t.end(), t + c.lookahead) - events.t.begin();
   ActiveEventSurface surface(kWidth, kHeight);
-  surface.Update(events.t.data(), events.x.data(), events.y.data(), events.p.data(), middle);
+  surface.Update(events.t.data(), events.x.data(), events.y.data(), middle);
   SurfaceRenderer renderer(kWidth, kHeight, s);
   SurfaceRenderer::View view;
   view.t = t;
@@ -94,7 +94,7 @@ double Lag(double speed, Utime lookahead, double tail_px) {
   const std::size_t end =
       std::upper_bound(events.t.begin(), events.t.end(), t + lookahead) - events.t.begin();
   ActiveEventSurface surface(kWidth, kHeight);
-  surface.Update(events.t.data(), events.x.data(), events.y.data(), events.p.data(), middle);
+  surface.Update(events.t.data(), events.x.data(), events.y.data(), middle);
   SurfaceRenderer renderer(kWidth, kHeight, Settings(true, 20, 1));
   SurfaceRenderer::View view;
   view.t = t;
@@ -133,7 +133,7 @@ TEST(SurfaceRenderer, IgnoredPixelsAndLoneEventsLeaveNoTrace) {
   events.push_back(1000, 10, 10, 1);  // alone
   events.push_back(1000, 30, 20, 1);  // a pair
   events.push_back(1000, 31, 20, 0);
-  surface.Update(events.t.data(), events.x.data(), events.y.data(), events.p.data(), events.size());
+  surface.Update(events.t.data(), events.x.data(), events.y.data(), events.size());
   SurfaceRenderer renderer(kWidth, kHeight, Settings(true, 20, 0));
   SurfaceRenderer::View view;
   view.t = 1000;

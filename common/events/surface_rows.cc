@@ -9,11 +9,10 @@
 namespace evit {
 namespace {
 
-EVIT_MULTIVERSION void Quantize(const std::int32_t* __restrict a, const std::int32_t* __restrict b,
-                                std::size_t n, std::int32_t now, int shift, std::uint16_t* __restrict out) {
+EVIT_MULTIVERSION void Quantize(const std::int32_t* __restrict stamps, std::size_t n, std::int32_t now,
+                                int shift, std::uint16_t* __restrict out) {
   for (std::size_t i = 0; i < n; ++i) {
-    const std::int32_t newest = a[i] > b[i] ? a[i] : b[i];
-    const std::int32_t d = (now - newest) >> shift;
+    const std::int32_t d = (now - stamps[i]) >> shift;
     out[i] = static_cast<std::uint16_t>(d < 65535 ? d : 65535);
   }
 }
@@ -105,9 +104,9 @@ EVIT_MULTIVERSION void NegateRow(const std::uint16_t* __restrict in, int n, std:
 
 }  // namespace
 
-void QuantizeDistances(const std::int32_t* a, const std::int32_t* b, std::size_t n, std::int32_t now,
-                       int shift, std::uint16_t* out) {
-  Quantize(a, b, n, now, shift, out);
+void QuantizeDistances(const std::int32_t* stamps, std::size_t n, std::int32_t now, int shift,
+                       std::uint16_t* out) {
+  Quantize(stamps, n, now, shift, out);
 }
 
 SurfacePass::SurfacePass(int width, int height, double sigma)

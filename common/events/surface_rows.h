@@ -9,9 +9,9 @@
 namespace evit {
 
 /// Distances in time as 16-bit multiples of 2^shift us, limited to 65535: a plane fits the second-level
-/// cache. out[i] = now - newest of the two planes' stamps.
-void QuantizeDistances(const std::int32_t* a, const std::int32_t* b, std::size_t n, std::int32_t now,
-                       int shift, std::uint16_t* out);
+/// cache. out[i] = now - stamps[i].
+void QuantizeDistances(const std::int32_t* stamps, std::size_t n, std::int32_t now, int shift,
+                       std::uint16_t* out);
 
 class SurfacePass {
  public:

@@ -36,8 +36,7 @@ void TimeSurfaceImage::Draw(const Window& window, Keyframe* keyframe) {
 }
 
 void TimeSurfaceImage::Take(const EventArray& events, std::size_t begin, std::size_t end) {
-  surface_.Update(events.t.data() + begin, events.x.data() + begin, events.y.data() + begin,
-                  events.p.data() + begin, end - begin);
+  surface_.Update(events.t.data() + begin, events.x.data() + begin, events.y.data() + begin, end - begin);
   hot_pixels_.Update(events, begin, end);
 }
 

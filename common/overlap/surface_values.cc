@@ -52,7 +52,7 @@ void SurfaceMeter::Draw() {
                                     pending_.t.begin());
   };
   const std::size_t n = until(t);
-  surface_.Update(pending_.t.data(), pending_.x.data(), pending_.y.data(), pending_.p.data(), n);
+  surface_.Update(pending_.t.data(), pending_.x.data(), pending_.y.data(), n);
   DropFirst(n, &pending_);
   const SurfaceRenderer::Image image = renderer_.Render(
       surface_, {t, policy_.DecayUs(view.speed_px, 0), &pending_, 0, until(t + lookahead_), nullptr});
