@@ -18,8 +18,7 @@ constexpr StartRange kFollow{0.01, 0.006, 3};  // constant velocity and gyro ove
 constexpr std::size_t kMaxFrames = 300;
 constexpr std::size_t kLongestDoubt = 100;  // frames of a chain that may be false, before it is given up
 constexpr int kRivalSearches = 3;  // before a start counts: one misses the right pose one time in eight
-constexpr std::int64_t kOtherPlaces = 331;  // added to a frame's number: other places than its neighbours try
-constexpr int kPatience = 100;              // frames that do not fit before the start counts as failed
+constexpr int kPatience = 100;     // frames that do not fit before the start counts as failed
 
 // What the window may believe of its first state: the accuracy of an event-only pose and of the alignment. Of
 // the biases what was known before: a tenth of a second of frames says nothing of them, and what the
@@ -79,7 +78,7 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
   const LocalizerResult fit =
       chained ? LocalizeBest(alignment_, *field, result.points, predicted.T_map_body, range)
               : SearchStart(alignment_, *field, result.points, predicted.T_map_body, range, keyframe.seq);
-  const double significance = AlignmentSignificance(alignment_, *field, result.points, fit.T_map_body);
+  const double significance = fit.significance;
   result.quality = fit.quality;
   result.iterations = fit.iterations;
   if (!WithinReach(fit.T_map_body, predicted.T_map_body, range) ||
@@ -127,23 +126,13 @@ bool Bootstrapper::Found() const {
          MeanSignificance() >= kFoundSignificance;
 }
 
-// The pose that explains the newest frame best beside the chain's own.
-StartRival Bootstrapper::StrongestRival(const AlignmentPoints& points) const {
-  const LocalizedFrame& newest = frames_.back();
-  StartRival rival;
-  for (int k = 0; k < kRivalSearches; ++k) {
-    const StartRival other = FindRival(alignment_, *newest.field, points, state_.T_map_body, kStart,
-                                       newest.seq + k * kOtherPlaces);
-    if (other.distinct && (!rival.distinct || other.significance < rival.significance)) rival = other;
-  }
-  return rival;
-}
-
 // A false lock may look as certain as the right pose while no other is known: before the first pose is
 // reported, and again before the window takes over, no other pose may explain the newest frame as well. False
 // where one does; where one explains it better the chain starts again from there.
 bool Bootstrapper::RuleOutRivals(Result* result) {
-  const StartRival rival = StrongestRival(result->points);
+  const LocalizedFrame& newest = frames_.back();
+  const StartRival rival = FindRival(alignment_, *newest.field, result->points, state_.T_map_body, kStart,
+                                     newest.seq, kRivalSearches);
   if (!rival.distinct || rival.significance > 0) return true;
   result->reason = "another pose explains the events as well";
   if (rival.significance < -kPreferredSignificance) {

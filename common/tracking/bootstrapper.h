@@ -63,7 +63,6 @@ class Bootstrapper {
   Eigen::Vector3d RecentVelocity() const;
   bool ReadyToAlign() const;
   bool Found() const;
-  StartRival StrongestRival(const AlignmentPoints& points) const;
   bool RuleOutRivals(Result* result);
   void Align(Result* result);
 

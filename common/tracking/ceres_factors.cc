@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 namespace evit {
@@ -34,11 +35,20 @@ void WriteJacobians(const Matrix15d& j, double* pose, double* motion) {
 
 }  // namespace
 
+const AlignmentTerm& EventAlignmentFactor::TermAt(const double* pose) const {
+  std::array<double, 7> at;
+  std::copy_n(pose, at.size(), at.begin());
+  if (evaluated_at_ != at) {
+    term_ = EvaluateAlignment(*settings_, *field_, level_, *points_, PoseFromBlock(pose), true);
+    evaluated_at_ = at;
+  }
+  return term_;
+}
+
 bool EventAlignmentFactor::Evaluate(double const* const* parameters, double* residuals,
                                     double** jacobians) const {
   const bool derivatives = jacobians != nullptr && jacobians[0] != nullptr;
-  const AlignmentTerm term =
-      EvaluateAlignment(*settings_, *field_, level_, *points_, PoseFromBlock(parameters[0]), derivatives);
+  const AlignmentTerm& term = TermAt(parameters[0]);
   Eigen::Map<Eigen::Matrix<double, 7, 1>> r(residuals);
   r.setZero();
   if (!derivatives) {

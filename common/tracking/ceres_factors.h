@@ -2,6 +2,9 @@
 
 #include <ceres/sized_cost_function.h>
 
+#include <array>
+#include <optional>
+
 #include "common/tracking/event_alignment.h"
 #include "common/tracking/imu_term.h"
 #include "common/tracking/prior.h"
@@ -24,10 +27,16 @@ class EventAlignmentFactor : public ceres::SizedCostFunction<7, 7> {
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override;
 
  private:
+  const AlignmentTerm& TermAt(const double* pose) const;
+
   const AlignmentSettings* settings_;
   const SurfaceField* field_;
   int level_;
   const AlignmentPoints* points_;
+  // Ceres asks for the cost of a step, then, of most, for the derivatives at the same pose: both are
+  // evaluated once.
+  mutable std::optional<std::array<double, 7>> evaluated_at_;
+  mutable AlignmentTerm term_;
 };
 
 /// ImuTerm over (pose i, motion i, pose j, motion j).

@@ -1,5 +1,6 @@
 #include "common/tracking/event_lag.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/tracking/alignment_lanes.h"
@@ -34,6 +35,7 @@ EVIT_ALWAYS_INLINE void MoveBack(const LagBatch& c, PointArrays* points) {
     float* const z = points->mutable_z() + k;
     BodyLanes p;
     ProjectLanes<kModel>(c, x, y, z, &p);
+    alignas(64) float moved[3][kLanes];
     for (int l = 0; l < kLanes; ++l) {
       // m/s: of a fixed point seen from the body, in its frame and in the camera's; then pixels/s.
       const float bx = c.w[2] * p.y[l] - c.w[1] * p.z[l] - c.v[0];
@@ -46,10 +48,14 @@ EVIT_ALWAYS_INLINE void MoveBack(const LagBatch& c, PointArrays* points) {
       const float u = c.camera.fx * (p.dxx[l] * mx + p.dxy[l] * my);
       const float v = c.camera.fy * (p.dxy[l] * mx + p.dyy[l] * my);
       const float delay = p.ahead[l] * c.lag / (std::sqrt(u * u + v * v) + kSlow);  // s
-      x[l] -= delay * (B[0] * bx + B[3] * by + B[6] * bz);
-      y[l] -= delay * (B[1] * bx + B[4] * by + B[7] * bz);
-      z[l] -= delay * (B[2] * bx + B[5] * by + B[8] * bz);
+      moved[0][l] = x[l] - delay * (B[0] * bx + B[3] * by + B[6] * bz);
+      moved[1][l] = y[l] - delay * (B[1] * bx + B[4] * by + B[7] * bz);
+      moved[2][l] = z[l] - delay * (B[2] * bx + B[5] * by + B[8] * bz);
     }
+    // Only now: the batch's numbers could be these, as far as the compiler knows.
+    std::copy_n(moved[0], kLanes, x);
+    std::copy_n(moved[1], kLanes, y);
+    std::copy_n(moved[2], kLanes, z);
   }
 }
 

@@ -76,8 +76,7 @@ TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
   TrackerOutput out;
   out.quality = fit.quality;
   out.iterations = fit.iterations;
-  const double significance = AlignmentSignificance(alignment_, field, points, fit.T_map_body);
-  if (LiesOnEvents(fit.quality, options_.failure.min_contrast, significance, kFollowSignificance)) {
+  if (LiesOnEvents(fit.quality, options_.failure.min_contrast, fit.significance, kFollowSignificance)) {
     Accept(keyframe, seconds, fit.T_map_body);
     const Matrix6d alignment = EvaluateAlignmentExactly(alignment_, field, points, fit.T_map_body).hessian;
     out.information.topLeftCorner<6, 6>() = alignment;

@@ -10,6 +10,16 @@
 #include "common/tracking/pose_manifold.h"
 
 namespace evit {
+namespace {
+
+void Judge(const AlignmentSettings& settings, const SurfaceField& field, const AlignmentPoints& points,
+           LocalizerResult* result) {
+  const AlignmentVerdict verdict = JudgeAlignment(settings, field, points, result->T_map_body);
+  result->quality = verdict.quality;
+  result->significance = verdict.significance;
+}
+
+}  // namespace
 
 LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& field,
                          const AlignmentPoints& points, const SE3& start, const StartRange& range,
@@ -40,7 +50,7 @@ LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& 
   }
   result.T_map_body = PoseFromBlock(blocks.pose.data());
   result.T_map_body.q.normalize();
-  result.quality = MeasureAlignment(settings, field, points, result.T_map_body);
+  Judge(settings, field, points, &result);
   return result;
 }
 
@@ -48,15 +58,13 @@ LocalizerResult LocalizeBest(const AlignmentSettings& settings, const SurfaceFie
                              const AlignmentPoints& points, const SE3& start, const StartRange& range) {
   LocalizerResult best;
   best.T_map_body = start;
-  best.quality = MeasureAlignment(settings, field, points, start);
-  double most = AlignmentSignificance(settings, field, points, start);
+  Judge(settings, field, points, &best);
   int iterations = 0;
   StartRange shallow = range;
   for (shallow.levels = 1; shallow.levels <= std::min(range.levels, field.levels()); ++shallow.levels) {
     const LocalizerResult fit = Localize(settings, field, points, start, shallow);
     iterations += fit.iterations;
-    const double significance = AlignmentSignificance(settings, field, points, fit.T_map_body);
-    if (significance > most) most = significance, best = fit;
+    if (fit.significance > best.significance) best = fit;
   }
   best.iterations = iterations;
   return best;

@@ -8,6 +8,7 @@ namespace evit {
 struct LocalizerResult {
   SE3 T_map_body;
   AlignmentQuality quality;
+  double significance = 0;  // AlignmentSignificance
   int iterations = 0;
 };
 

@@ -33,7 +33,9 @@ void SlidingWindow::Push(WindowNode node) {
 // Most nodes hardly move from one solve to the next, and hardly any does in the last iterations. While a pose
 // changes the residuals by less than kSame, the quadratic function around its last evaluation is used.
 AlignmentTerm SlidingWindow::AlignNear(const SE3& T_map_body, WindowNode* node) const {
-  constexpr double kSame = 3e-3;  // of a residual's standard deviation, root mean square over the points
+  // Of a residual's standard deviation, root mean square over the points: two grey levels, on an edge
+  // less than a tenth of a pixel, far inside the valley that the quadratic function describes.
+  constexpr double kSame = 2e-2;
   LocalAlignment& local = node->local;
   if (local.known) {
     Vector6d d;

@@ -12,14 +12,16 @@
 namespace evit {
 namespace {
 
-constexpr int kPlaces = 96;                // poses around the centre, compared on one level of the field
-constexpr int kTried = 4;                  // the best of them, from which to localise
-constexpr int kLevel = 2;                  // that level: basins of some 12 pixels
-constexpr std::size_t kPlacePoints = 400;  // to compare them by
-constexpr std::size_t kFitPoints = 1200;   // to localise by
-constexpr int kWeakWays = 2;               // directions of which a frame says least
-constexpr int kWeakSteps = 8;              // along each for once the range: centimetres
-constexpr double kSameValley = 0.03;       // m, rad
+constexpr int kPlaces = 96;                 // poses around the centre, compared on one level of the field
+constexpr int kTried = 4;                   // the best of them, from which to localise
+constexpr int kLevel = 2;                   // that level: basins of some 12 pixels
+constexpr std::size_t kPlacePoints = 400;   // to compare them by
+constexpr std::size_t kFitPoints = 1200;    // to localise by
+constexpr std::size_t kRivalPoints = 4000;  // to compare a rival by
+constexpr std::int64_t kOtherPlaces = 331;  // added to a frame's number: other places than its neighbours try
+constexpr int kWeakWays = 2;                // directions of which a frame says least
+constexpr int kWeakSteps = 8;               // along each for once the range: centimetres
+constexpr double kSameValley = 0.03;        // m, rad
 constexpr double kFarthest = 2;  // times the range: what is found beyond has nothing to do with the start
 constexpr double kFarthestRival =
     4;  // a false start may be kFarthest beside one that is as far from the truth
@@ -74,38 +76,52 @@ std::vector<SE3> PosesAlongWeakWays(const AlignmentSettings& settings, const Sur
   return best;
 }
 
+// Of so many poses around the centre, those with the least cost.
+std::vector<SE3> BestPlaces(const AlignmentSettings& settings, const SurfaceField& field, int level,
+                            const AlignmentPoints& points, const SE3& centre, const StartRange& range,
+                            std::int64_t frame) {
+  std::vector<std::pair<double, SE3>> places;
+  for (int k = 0; k < kPlaces; ++k) {
+    const SE3 pose = PoseAround(centre, range, 1 + k + kPlaces * static_cast<int>(frame % 1000));
+    places.emplace_back(EvaluateAlignment(settings, field, level, points, pose, false).cost, pose);
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<SE3> best;
+  for (int k = 0; k < kTried; ++k) best.push_back(places[k].second);
+  return best;
+}
+
 // SearchStart(), whose result lies at most `farthest` times the range from the centre.
 LocalizerResult Search(const AlignmentSettings& settings, const SurfaceField& field,
                        const AlignmentPoints& points, const SE3& centre, const StartRange& range,
-                       double farthest, std::int64_t frame) {
+                       double farthest, std::int64_t frame, int rounds) {
   const AlignmentPoints few = Thinned(points, kPlacePoints), some = Thinned(points, kFitPoints);
   const int level = std::min(field.levels() - 1, kLevel);
   StartRange from_place = range, from_weak = range, finest = range;
   from_place.levels = level + 1;
   from_weak.levels = std::min(field.levels(), 2);  // already beside their events
   finest.levels = 1;
-  std::vector<std::pair<double, SE3>> places;
-  for (int k = 0; k < kPlaces; ++k) {
-    const SE3 pose = PoseAround(centre, range, 1 + k + kPlaces * static_cast<int>(frame % 1000));
-    places.emplace_back(EvaluateAlignment(settings, field, level, few, pose, false).cost, pose);
-  }
-  std::stable_sort(places.begin(), places.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
   const auto near = [&](const SE3& pose) {
     return (pose.p - centre.p).norm() < farthest * range.position &&
            AngularDistance(pose.q, centre.q) < farthest * range.rotation;
   };
   LocalizerResult best = LocalizeBest(settings, field, some, centre, range);
-  if (!near(best.T_map_body)) best.T_map_body = centre;
-  double most = AlignmentSignificance(settings, field, some, best.T_map_body);
+  if (!near(best.T_map_body)) {
+    best.T_map_body = centre;
+    best.significance = AlignmentSignificance(settings, field, some, centre);
+  }
   int iterations = best.iterations;
   const auto try_from = [&](const SE3& pose, const StartRange& from) {
     const LocalizerResult fit = Localize(settings, field, some, pose, from);
     iterations += fit.iterations;
-    const double significance = AlignmentSignificance(settings, field, some, fit.T_map_body);
-    if (near(fit.T_map_body) && significance > most) most = significance, best = fit;
+    if (near(fit.T_map_body) && fit.significance > best.significance) best = fit;
   };
-  for (int k = 0; k < kTried; ++k) try_from(places[k].second, from_place);
+  for (int round = 0; round < rounds; ++round) {
+    for (const SE3& pose :
+         BestPlaces(settings, field, level, few, centre, range, frame + round * kOtherPlaces))
+      try_from(pose, from_place);
+  }
   for (const SE3& pose : PosesAlongWeakWays(settings, field, few, best.T_map_body, range, farthest))
     try_from(pose, from_weak);
   best = LocalizeBest(settings, field, points, best.T_map_body, finest);
@@ -118,17 +134,19 @@ LocalizerResult Search(const AlignmentSettings& settings, const SurfaceField& fi
 LocalizerResult SearchStart(const AlignmentSettings& settings, const SurfaceField& field,
                             const AlignmentPoints& points, const SE3& centre, const StartRange& range,
                             std::int64_t frame) {
-  return Search(settings, field, points, centre, range, kFarthest, frame);
+  return Search(settings, field, points, centre, range, kFarthest, frame, 1);
 }
 
 StartRival FindRival(const AlignmentSettings& settings, const SurfaceField& field,
                      const AlignmentPoints& points, const SE3& T_map_body, const StartRange& range,
-                     std::int64_t frame) {
+                     std::int64_t frame, int rounds) {
+  const AlignmentPoints some = Thinned(points, kRivalPoints);
   StartRival rival;
-  rival.T_map_body = Search(settings, field, points, T_map_body, range, kFarthestRival, frame).T_map_body;
+  rival.T_map_body =
+      Search(settings, field, some, T_map_body, range, kFarthestRival, frame, rounds).T_map_body;
   rival.distinct = (rival.T_map_body.p - T_map_body.p).norm() > kSameValley ||
                    AngularDistance(rival.T_map_body.q, T_map_body.q) > kSameValley;
-  rival.significance = SignificanceOver(settings, field, points, T_map_body, rival.T_map_body);
+  rival.significance = SignificanceOver(settings, field, some, T_map_body, rival.T_map_body);
   return rival;
 }
 

@@ -19,8 +19,9 @@ struct StartRival {
   double significance = 0;  // of the pose over it (SignificanceOver)
   SE3 T_map_body;           // the other
 };
+/// Looks at some 4,000 points at most. `rounds`: of places to try around the pose, each with as many others.
 StartRival FindRival(const AlignmentSettings& settings, const SurfaceField& field,
                      const AlignmentPoints& points, const SE3& T_map_body, const StartRange& range,
-                     std::int64_t frame);
+                     std::int64_t frame, int rounds = 1);
 
 }  // namespace evit

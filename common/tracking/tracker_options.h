@@ -8,9 +8,9 @@ namespace evit {
 
 /// Which map points a keyframe is aligned with.
 struct PointOptions {
-  int max_active = 8000;    // points asked of map_server for one view
+  int max_active = 9300;    // points asked of map_server for one view
   int per_keyframe = 8000;  // of those, used by the solver for each keyframe; a random subset where fewer
-  double margin_px = 40;    // how much wider than the image the frustum of the predicted pose is
+  double margin_px = 64;    // how much wider than the image the frustum of the predicted pose is
   double min_depth_m = 0.1;
   double max_depth_m = 12;
   bool occlusion = true;  // leave out points hidden behind nearer ones
