@@ -64,6 +64,7 @@ TEST_F(SettingsFile, FullCopiesOfEarlierVersionsLoadToTheSameValues) {
     expected.keyframes.min_events = 2000;
     expected.surface.blur_sigma_px = 0.5;
     expected.points.max_active = 5000;
+    expected.points.margin_px = 40;
     expected.points.per_keyframe = 1500;
     expected.window.image_sigma = 80;
     expected.failure.min_contrast = 0.03;
