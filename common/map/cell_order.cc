@@ -32,7 +32,8 @@ CellOrder::CellOrder(const std::vector<Eigen::Vector3f>& points, double side) : 
     return Cell{cells[3 * k], cells[3 * k + 1], cells[3 * k + 2]};
   };
   least_ = cell(0);
-  for (std::size_t k = 0; k < cells.size(); ++k) least_[k % 3] = std::min<std::int64_t>(least_[k % 3], cells[k]);
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    least_[k % 3] = std::min<std::int64_t>(least_[k % 3], cells[k]);
   places_.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k)
     places_.push_back({KeyOf(cell(k)), static_cast<std::int32_t>(k)});
@@ -57,7 +58,8 @@ std::uint64_t CellOrder::KeyOf(const Cell& cell) const {
   return key;
 }
 
-// By digits, of which a map of a room has three: half a million points at a time, of which a comparison says little.
+// By digits, of which a map of a room has three: half a million points at a time, of which a comparison says
+// little.
 void CellOrder::Sort() {
   constexpr int kDigitBits = 11;
   constexpr std::uint64_t kMask = (1 << kDigitBits) - 1;

@@ -8,7 +8,8 @@
 
 namespace evit {
 
-/// Points in the order of the cubic cells that they lie in: cells by x, then y, then z, points of a cell by index.
+/// Points in the order of the cubic cells that they lie in: cells by x, then y, then z, points of a cell by
+/// index.
 class CellOrder {
  public:
   using Cell = std::array<std::int64_t, 3>;

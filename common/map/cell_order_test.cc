@@ -33,7 +33,7 @@ void ExpectSorted(const std::vector<Eigen::Vector3f>& points, double side) {
 }
 
 TEST(CellOrder, SortsByCellThenIndex) {
-  ExpectSorted(Cloud(5000, 3), 0.5);   // many points in a cell, cells on both sides of the origin
+  ExpectSorted(Cloud(5000, 3), 0.5);    // many points in a cell, cells on both sides of the origin
   ExpectSorted(Cloud(5000, 90), 0.02);  // thousands of cells along each axis
 }
 

@@ -57,7 +57,7 @@ EVIT_MULTIVERSION_WIDE void SumNear(const Points& points, const Rows& rows, cons
         const float dx = qx - p.x[l], dy = qy - p.y[l], dz = qz - p.z[l];
         const float d2 = dx * dx + (dy * dy + dz * dz);
         const float c = (d2 <= radius2 ? stands_for : 0) * (place != p.place[l] ? 1.0F : 0.0F);
-        const float w = c * Weight(d2, rate);
+        const float w = c > 0 ? c * Weight(d2, rate) : 0;  // strays are too far for a weight
         const float wx = w * dx, wy = w * dy, wz = w * dz;
         s.count[l] += c, s.weight[l] += w;
         s.x[l] += wx, s.y[l] += wy, s.z[l] += wz;

@@ -90,6 +90,15 @@ TEST(Denoise, CrowdsAndFarPointsDoNotHoldItUp) {
   EXPECT_EQ(map.points.size(), 100'000U);
 }
 
+TEST(Denoise, StraysThatShareACellDoNotSpoilEachOther) {
+  PointMap map;
+  for (int k = 0; k < 8; ++k) map.points.emplace_back(1e30F, 0, 0);
+  map.points.emplace_back(3e38F, 0, 0);
+  const std::vector<Eigen::Vector3f> before = map.points;
+  EXPECT_EQ(Denoise({}, &map).n_moved, 8U);
+  EXPECT_EQ(map.points, before);
+}
+
 TEST(Denoise, EmptyMapsAndNoRadiusAreFine) {
   PointMap map;
   EXPECT_EQ(Denoise({}, &map).n_moved, 0U);
