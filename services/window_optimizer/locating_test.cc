@@ -107,11 +107,15 @@ TEST_F(LocatingTest, WhatIsKnownOfThePlaceIsAskedWith) {
       ToMessage(PlacePrior{{}, PlacePrior::Between{-1, 1}, PlacePrior::Heading{EIGEN_PI, 0.5}});
   prior.epoch = 4;
   Send(channels_.place_prior, prior);
-  Play(60);
+  place_query_t search{};  // the newest; between them candidates are refined
+  for (int k = 0; k < 60; ++k) {
+    Play(1);
+    if (question_.everywhere != 0) search = question_;
+  }
   EXPECT_FALSE(tracking());  // it looks the other way
-  EXPECT_EQ(question_.yaw, prior.yaw);
-  EXPECT_EQ(question_.height_low, -1);
-  EXPECT_LT(question_.near_radius, 0);
+  EXPECT_EQ(search.yaw, prior.yaw);
+  EXPECT_EQ(search.height_low, -1);
+  EXPECT_LT(search.near_radius, 0);
   prior.seq = 1;
   prior.yaw = 0;
   Send(channels_.place_prior, prior);
