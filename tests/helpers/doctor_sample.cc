@@ -102,7 +102,7 @@ diagnosis::Findings ExamineSample(const Sample& s) {
   WritePcd(patient.map, s.map);
   WriteTum(patient.truth, s.truth);
   patient.start = s.start;
-  const diagnosis::Findings findings = Examine(patient, [](double) {});
+  diagnosis::Findings findings = Examine(patient, [](double) {});
   std::filesystem::remove_all(folder);
   return findings;
 }
