@@ -9,7 +9,7 @@ namespace evit {
 struct DepthFusionOptions {
   double reach_px = 6;     // along an edge: neighbours that a depth is compared with
   int min_along = 2;       // of them that must agree: a lone depth is an accident
-  int min_other_keys = 2;  // key views that confirm a depth, where so many see the place
+  int min_other_keys = 4;  // key views that confirm a depth, where so many see the place
   int least_keys = 1;      // that do in any case; 0: a depth in the sight of one key view alone counts
   double max_off_px = 1.5;
   double relative_tolerance = 0.01;  // of the depth, beside three sigma

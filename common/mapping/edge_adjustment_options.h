@@ -20,7 +20,7 @@ struct EdgeAdjustmentOptions {
   bool fewer_if_all = false;
   // Moving a point from where it was costs as much as so many of its sigmas: what a line knows of its depth
   // from neighbours along it is not lost. 0: costs nothing.
-  double hold_sigmas = 5;
+  double hold_sigmas = 0.5;
 };
 
 }  // namespace evit

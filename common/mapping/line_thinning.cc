@@ -98,35 +98,6 @@ void ForEachPoint(std::size_t n, int threads, const Work& work) {
 
 double WeightOf(const MappedPoint& p) { return 1 / (p.sigma * p.sigma + 1e-8); }
 
-// One point for each voxel and main direction.
-std::vector<MappedPoint> ThinToVoxels(const std::vector<MappedPoint>& points, double voxel_m) {
-  std::unordered_map<CellKey, std::size_t> places;
-  std::vector<Mean> means;
-  std::vector<double> best;  // sigma
-  for (const MappedPoint& p : points) {
-    const CellKey key = Key(CellOf(p.position, voxel_m), MainDirection(p.direction));
-    const auto [it, fresh] = places.emplace(key, means.size());
-    if (fresh) means.emplace_back(), best.push_back(p.sigma);
-    means[it->second].Add(p, WeightOf(p));
-    best[it->second] = std::min(best[it->second], p.sigma);
-  }
-  std::vector<MappedPoint> thin;
-  for (std::size_t k = 0; k < means.size(); ++k) {
-    const Mean& m = means[k];
-    MappedPoint p;
-    p.position = m.position / m.weight;
-    p.direction = m.direction.normalized();
-    // Views that share neighbours err together: a voxel is no better than a third of its best point's
-    // error.
-    p.sigma = std::max(1 / std::sqrt(m.weight), best[k] / 3);
-    p.views = m.views;
-    p.seen = m.seen / m.weight;
-    p.contrast = m.contrast / m.weight;
-    thin.push_back(p);
-  }
-  return thin;
-}
-
 // Onto the line through the neighbours: only across it, so that lines keep their ends.
 std::vector<MappedPoint> MoveOntoLines(const std::vector<MappedPoint>& points,
                                        const LineThinningOptions& options, int threads) {
@@ -168,6 +139,42 @@ std::vector<MappedPoint> BestOfVoxels(const std::vector<MappedPoint>& points, do
 }
 
 }  // namespace
+
+LineThinningOptions ForDepth(LineThinningOptions options, double depth_m) {
+  if (!options.finer_near) return options;
+  constexpr double kFullSize = 1.3, kSmallest = 0.1;  // m away; share
+  const double scale = std::clamp(depth_m / kFullSize, kSmallest, 1.0);
+  options.voxel_m *= scale, options.reach_m *= scale;
+  return options;
+}
+
+std::vector<MappedPoint> ThinToVoxels(const std::vector<MappedPoint>& points, double voxel_m) {
+  std::unordered_map<CellKey, std::size_t> places;
+  std::vector<Mean> means;
+  std::vector<double> best;  // sigma
+  for (const MappedPoint& p : points) {
+    const CellKey key = Key(CellOf(p.position, voxel_m), MainDirection(p.direction));
+    const auto [it, fresh] = places.emplace(key, means.size());
+    if (fresh) means.emplace_back(), best.push_back(p.sigma);
+    means[it->second].Add(p, WeightOf(p));
+    best[it->second] = std::min(best[it->second], p.sigma);
+  }
+  std::vector<MappedPoint> thin;
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    const Mean& m = means[k];
+    MappedPoint p;
+    p.position = m.position / m.weight;
+    p.direction = m.direction.normalized();
+    // Views that share neighbours err together: a voxel is no better than a third of its best point's
+    // error.
+    p.sigma = std::max(1 / std::sqrt(m.weight), best[k] / 3);
+    p.views = m.views;
+    p.seen = m.seen / m.weight;
+    p.contrast = m.contrast / m.weight;
+    thin.push_back(p);
+  }
+  return thin;
+}
 
 std::vector<MappedPoint> ThinToLines(const std::vector<MappedPoint>& points,
                                      const LineThinningOptions& options, int threads) {

@@ -38,6 +38,30 @@ TEST(ThinToLines, MakesOneLineOfABundle) {
   for (std::size_t k = 0; k < line.size(); ++k) EXPECT_EQ(again[k].position, line[k].position);
 }
 
+TEST(ThinToVoxels, KeepsTheMeanOfEachVoxelAndDirection) {
+  std::vector<MappedPoint> points = {PointAt(0.001, 0.001, 1.001), PointAt(0.003, 0.003, 1.003),
+                                     PointAt(0.009, 0.001, 1.001), PointAt(0.001, 0.001, 1.001)};
+  points[1].sigma = 0.002;
+  points[3].direction = Eigen::Vector3d::UnitY();
+  const auto thin = ThinToVoxels(points, 0.004);
+  ASSERT_EQ(thin.size(), 3U);
+  EXPECT_NEAR(thin[0].position.x(), 0.0026, 1e-5);  // four times the weight
+  EXPECT_NEAR(thin[0].sigma, 0.0018, 1e-4);
+  EXPECT_EQ(thin[1].position, points[2].position);
+  EXPECT_EQ(thin[2].direction, Eigen::Vector3d::UnitY());
+}
+
+TEST(ForDepth, LinesOfNearScenesAreFiner) {
+  const LineThinningOptions far = ForDepth({}, 2), near = ForDepth({}, 0.65);
+  EXPECT_DOUBLE_EQ(far.voxel_m, 0.004);
+  EXPECT_DOUBLE_EQ(far.reach_m, 0.015);
+  EXPECT_DOUBLE_EQ(near.voxel_m, 0.002);
+  EXPECT_DOUBLE_EQ(near.reach_m, 0.0075);
+  LineThinningOptions fixed;
+  fixed.finer_near = false;
+  EXPECT_DOUBLE_EQ(ForDepth(fixed, 0.65).voxel_m, 0.004);
+}
+
 // What was mismatched lies about, each point in a depth of its own; points of another direction do not help
 // it.
 TEST(DropLonePoints, KeepsLinesToTheirEndsAndDropsWhatLiesAbout) {

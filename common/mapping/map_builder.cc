@@ -79,11 +79,13 @@ void Finish(std::vector<PosedEdges> views, const std::vector<KeyDepths>& depths,
   map->alone = static_cast<std::size_t>(
       std::count_if(points.begin(), points.end(), [](const MappedPoint& p) { return p.views < 2; }));
   map->confirmed = points.size() - map->alone;
-  points = ThinToLines(points, options.thinning, options.threads);
+  const LineThinningOptions thinning = ForDepth(options.thinning, map->typical_depth_m);
+  points = ThinToLines(points, thinning, options.threads);
   progress(0.75, "fitting points and poses to all views");
   map->adjustment = EdgeAdjustment(&views, options.adjustment, options.threads).Run(&points);
-  points = ThinToLines(points, options.thinning, options.threads);
-  map->points = DropLonePoints(points, options.thinning, options.threads);
+  points = options.smooth_fitted ? ThinToLines(points, thinning, options.threads)
+                                 : ThinToVoxels(points, thinning.voxel_m);
+  map->points = DropLonePoints(points, thinning, options.threads);
   for (const PosedEdges& view : views) map->poses.push_back(view.T_map_camera);
   progress(1, std::to_string(map->points.size()) + " points");
 }
@@ -122,12 +124,15 @@ double TakeOutLag(double depth, const MapBuilderOptions& options, std::vector<Po
 
 MapBuilderOptions OptionsForEvents(MapBuilderOptions options) {
   // A view shows the edges across its motion alone: more of them, and from nearer by.
-  options.choice.key_distance_m = 0.01;
-  options.choice.key_angle_deg = 2;
   options.choice.neighbours = 24;
+  options.fusion.min_other_keys = 2;
   options.stereo.edge_sigma_px = options.adjustment.edge_sigma_px = 0.6;
   options.stereo.min_share = 0.4;
   options.adjustment.min_share = 0.3;
+  // Depths are several times as rough: each needs its neighbours along a longer part of the line.
+  options.thinning.finer_near = false;
+  options.smooth_fitted = true;
+  options.adjustment.hold_sigmas = 5;
   return options;
 }
 
@@ -147,6 +152,9 @@ BuiltMap BuildMapFromDepths(std::vector<PosedEdges> views, std::vector<KeyDepths
   held.adjustment.min_views = std::min(options.adjustment.min_views, 2);
   held.adjustment.fewer_if_all = true;
   held.fusion.least_keys = 0;
+  // The sensor's noise does not shrink with the distance of a line's points.
+  held.thinning.finer_near = false;
+  held.smooth_fitted = true;
   held.thinning.min_share = 0;  // no depth is one of another edge
   held.adjustment.min_share = std::min(options.adjustment.min_share, 0.25);
   held.fusion.min_other_keys = std::min(options.fusion.min_other_keys, 1);

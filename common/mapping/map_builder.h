@@ -19,6 +19,9 @@ struct MapBuilderOptions {
   DepthFusionOptions fusion;
   LineThinningOptions thinning;
   EdgeAdjustmentOptions adjustment;
+  // Points move onto the line through their neighbours once more after they were fitted to the views: where
+  // single depths are rough.
+  bool smooth_fitted = false;
   double typical_depth_m = 0;  // of the scene; 0: found from a few views
   int threads = 2;
 };

@@ -7,8 +7,8 @@
 namespace evit {
 
 struct ViewChoiceOptions {
-  double key_distance_m = 0.02;  // from one key view to the next, or
-  double key_angle_deg = 4;
+  double key_distance_m = 0.01;  // from one key view to the next, or
+  double key_angle_deg = 2;
   int max_keys = 160;             // of more, evenly many: each asks all others
   double min_parallax_deg = 0.4;  // of a neighbour: less says nothing about depth,
   double max_parallax_deg = 20;   // more and an edge looks different, or is another one

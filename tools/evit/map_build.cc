@@ -123,8 +123,13 @@ void AddMapBuild(CLI::App* map) {
       ->check(CLI::PositiveNumber);
   command->add_option("--max-depth", o->making.build.stereo.max_depth_m, "Farthest edge, m")
       ->check(CLI::PositiveNumber);
-  command->add_option("--voxel", o->making.build.thinning.voxel_m, "One point per so many metres of an edge")
-      ->check(CLI::Range(0.001, 0.1));
+  CLI::Option* voxel =
+      command
+          ->add_option(
+              "--voxel", o->making.build.thinning.voxel_m,
+              "One point per so many metres of an edge; with --images less by default where edges are "
+              "nearer than 1.3 m")
+          ->check(CLI::Range(0.001, 0.1));
   command->add_flag("--keep-poses", o->keep_poses,
                     "Take the poses as exact instead of fitting them to each other");
   command->add_option("--poses-out", o->adjusted, "TUM file to write: the poses as they were fitted");
@@ -140,7 +145,7 @@ void AddMapBuild(CLI::App* map) {
       "map.pcd\n"
       "Depth comes from motion: the camera has to move sideways, some centimetres for each metre of "
       "distance.");
-  command->callback([o, contrast] {
+  command->callback([o, contrast, voxel] {
     mapping::MapMaking& m = o->making;
     // Where depth is measured a weak edge is placed as well as a strong one.
     if (!m.rgbd.empty() && contrast->count() == 0) m.reader.edges.sure_contrast = 0.25;
@@ -152,6 +157,7 @@ void AddMapBuild(CLI::App* map) {
     if (o->poses_of == "marker") m.poses_of = mapping::PosedFrame::kMarker;
     if (!o->T_map_world.empty()) m.T_map_world = ParseTransform("--T-map-world", o->T_map_world);
     m.reader.find_contrast = contrast->count() == 0;
+    if (voxel->count() > 0) m.build.thinning.finer_near = false;
     m.reader.threads = m.event_reader.threads = m.build.threads;
     m.event_reader.slices.most = m.reader.max_frames;
     m.reader.edges.min_contrast = m.reader.edges.sure_contrast / 2;

@@ -20,7 +20,7 @@ std::string Text(const char* format, Values... values) {
 
 // Share of the pixels that fired that lie on a good map, on recordings that are tracked to within a
 // centimetre (docs/results/accuracy.md): also noise, weak edges and what the map leaves out fire.
-constexpr double kUsualLow = 0.38, kUsualHigh = 0.66;
+constexpr double kUsualLow = 0.38, kUsualHigh = 0.75;
 constexpr double kLeastKappa = 0.1, kLeastEventKappa = 0.05;  // beyond chance; less is none
 constexpr double kUsuallySeen = 0.5, kHardlySeen = 0.2;       // of the moments, a map in view
 constexpr double kUprightDeg = 2, kFallenDeg = 10;            // the second: gravity pulls a tracker off

@@ -33,7 +33,7 @@ std::vector<std::size_t> Samples(const std::vector<std::size_t>& indices) {
 }
 
 // Cameras compress contrast by their gamma, and rooms differ: as low as it takes for a middling picture to
-// show edges as long as twice around it.
+// show edges as long as two and a quarter times around it.
 double FindContrast(const std::vector<std::size_t>& samples, const formats::PictureStyle& style,
                     formats::FrameSource* source, const Camera& camera, const Rectifier& rectifier,
                     const FrameReaderOptions& options) {
@@ -46,7 +46,7 @@ double FindContrast(const std::vector<std::size_t>& samples, const formats::Pict
         images[k] = rectifier.Rectify(image);
       },
       [](std::size_t, const std::string&) {});
-  const auto enough = static_cast<std::size_t>(4 * (camera.width + camera.height));
+  const auto enough = static_cast<std::size_t>(4.5 * (camera.width + camera.height));
   double contrast = options.edges.sure_contrast;
   for (; contrast > kLeastContrast; contrast = std::max(kLeastContrast, 0.7 * contrast)) {
     EdgeDetectorOptions detector = options.edges;

@@ -123,6 +123,7 @@ MapCheck CheckMap(const MapCheckInputs& inputs, const std::function<void(double)
   const LogReader log(inputs.log);
   MapCheck check;
   MapViewOptions options;
+  options.max_points = 50'000;  // of fewer than all, pixels that fire would seem to be off the map
   options.step = std::max<Utime>(100'000, (truth.back().t - truth.front().t) / 100);
   check.views = PlanViews(index, rig, truth, options);
   check.moments_planned = CountMoments(truth, options);
