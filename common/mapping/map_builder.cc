@@ -86,6 +86,11 @@ void Finish(std::vector<PosedEdges> views, const std::vector<KeyDepths>& depths,
   points = options.smooth_fitted ? ThinToLines(points, thinning, options.threads)
                                  : ThinToVoxels(points, thinning.voxel_m);
   map->points = DropLonePoints(points, thinning, options.threads);
+  // Held by less than its sigma a point stays nearer to where it was measured, but is not better known.
+  const double hold = options.adjustment.hold_sigmas;
+  if (hold > 0 && hold < 1) {
+    for (MappedPoint& p : map->points) p.sigma /= hold;
+  }
   for (const PosedEdges& view : views) map->poses.push_back(view.T_map_camera);
   progress(1, std::to_string(map->points.size()) + " points");
 }
