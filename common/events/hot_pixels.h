@@ -29,13 +29,18 @@ class HotPixels {
 
  private:
   void CloseWindow();
+  void ClearCounts();
+  int CountOf(std::size_t pixel) const { return fine_[pixel] + 256 * coarse_[pixel]; }
   int NeighbourLevel(int x, int y) const;
 
   int width_, height_;
   double threshold_;  // events per window
   Utime window_end_ = 0;
   bool started_ = false;
-  std::vector<std::uint16_t> counts_;  // [height][width]
+  // [height][width]: a pixel's count modulo 256, and how often that went round. Nearly all counts are small,
+  // and the bytes are what stays in the cache.
+  std::vector<std::uint8_t> fine_;
+  std::vector<std::uint16_t> coarse_;
   std::vector<std::int32_t> pixels_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/events/event_order.h"
 #include "common/simd/lanes.h"
 #include "common/time/time_order.h"
 
@@ -24,7 +25,7 @@ struct Event {
 }  // namespace
 
 void StreamGuard::Sort(EventArray* events) {
-  if (std::is_sorted(events->t.begin(), events->t.end())) return;
+  if (NeverDecreases(events->t.data(), events->size())) return;
   std::vector<Event> list;
   for (std::size_t k = 0; k < events->size(); ++k)
     list.push_back({events->t[k], events->x[k], events->y[k], events->p[k]});

@@ -17,11 +17,12 @@ class StreamGuard {
     std::int64_t events_ahead = 0, events_sorted = 0, imu_ahead = 0, imu = 0;
   };
 
-  /// Calls use(events, watermark) for what is good now; as KeyframeBuilder::AddEvents takes them.
+  /// Calls use(events, watermark) for what is good now; as KeyframeBuilder::AddEvents takes them, and with an
+  /// EventArray that `use` may take the memory of.
   template <typename Use>
   void AddEvents(EventArray events, Utime watermark, const Use& use) {
     Sort(&events);
-    const auto pass = [&](const Packet& p) { use(p.events, p.watermark); };
+    const auto pass = [&](Packet& p) { use(p.events, p.watermark); };
     const auto drop = [&](const Packet& p) {
       counters_.events_ahead += static_cast<std::int64_t>(p.events.size());
     };
@@ -43,7 +44,7 @@ class StreamGuard {
   }
   template <typename UseEvents, typename UseImu>
   void Flush(const UseEvents& use_events, const UseImu& use_imu) {
-    packets_.Flush([&](const Packet& p) { use_events(p.events, p.watermark); });
+    packets_.Flush([&](Packet& p) { use_events(p.events, p.watermark); });
     imu_.Flush(use_imu);
   }
   /// New streams begin.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/events/event_order.h"
 #include "common/simd/lanes.h"
 
 namespace evit {
@@ -9,21 +10,14 @@ namespace {
 
 constexpr std::size_t kCompactAt = 1 << 16;  // events: dropping them from the front costs a move of the rest
 
-EVIT_MULTIVERSION bool Increases(const Utime* t, std::size_t n) {
-  Utime decrease = 0;
-  for (std::size_t i = 1; i < n; ++i) decrease |= t[i] - t[i - 1];
-  return decrease >= 0;  // its sign is set where one of them is negative
-}
-
 EVIT_MULTIVERSION std::uint16_t Largest(const std::uint16_t* values, std::size_t n) {
   std::uint16_t largest = 0;
   for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, values[i]);
   return largest;
 }
 
-EVIT_MULTIVERSION void AddOffset(Utime offset, const Utime* __restrict t, std::size_t n,
-                                 Utime* __restrict out) {
-  for (std::size_t i = 0; i < n; ++i) out[i] = t[i] + offset;
+EVIT_MULTIVERSION void AddOffset(Utime offset, Utime* t, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) t[i] += offset;
 }
 
 void EraseFront(EventArray* events, std::size_t n) {
@@ -79,14 +73,14 @@ bool StreamMerger::AddEvents(const EventArray& events, Utime watermark) {
 bool StreamMerger::IsPlain(const EventArray& events) const {
   if (events.size() == 0 || events.t.front() + offset_ < Watermark()) return false;
   const std::size_t n = events.size();
-  return Increases(events.t.data(), n) && Largest(events.x.data(), n) < width_ &&
+  return NeverDecreases(events.t.data(), n) && Largest(events.x.data(), n) < width_ &&
          Largest(events.y.data(), n) < height_;
 }
 
 void StreamMerger::Append(const EventArray& events) {
-  const std::size_t begin = events_.size(), n = events.size();
-  events_.t.resize(begin + n);
-  AddOffset(offset_, events.t.data(), n, events_.t.data() + begin);
+  const std::size_t begin = events_.size();
+  events_.t.insert(events_.t.end(), events.t.begin(), events.t.end());
+  if (offset_ != 0) AddOffset(offset_, events_.t.data() + begin, events.size());
   events_.x.insert(events_.x.end(), events.x.begin(), events.x.end());
   events_.y.insert(events_.y.end(), events.y.begin(), events.y.end());
   events_.p.insert(events_.p.end(), events.p.begin(), events.p.end());

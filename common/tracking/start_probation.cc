@@ -7,7 +7,7 @@
 namespace evit {
 namespace {
 
-constexpr Utime kLasts = 1'000'000;  // us
+constexpr Utime kLasts = 1'000'000;     // us
 constexpr int kFewest = 5, kMean = 10;  // keyframes
 
 }  // namespace

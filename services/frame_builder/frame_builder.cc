@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "common/bus/codec.h"
-#include "common/wire/event_wire.h"
 #include "common/wire/imu_wire.h"
 #include "common/wire/keyframe_wire.h"
 
@@ -29,23 +28,34 @@ FrameBuilder::FrameBuilder(Bus* bus, const Channels& channels, const Settings& s
       (this->*method)(data, size);
     });
   };
-  on(channels_.events, &FrameBuilder::OnData<event_packet_t>);
-  on(channels_.imu, &FrameBuilder::OnData<imu_batch_t>);
+  on(channels_.events, &FrameBuilder::OnEvents);
+  on(channels_.imu, &FrameBuilder::OnImu);
   on(channels_.tracker_mode, &FrameBuilder::OnMode);
   on(channels_.stream_end, &FrameBuilder::OnEnd);
   if (settings_.lossless) credit_.emplace(bus_, channels_, "frame_builder", status_.epoch());
   status_.SetState("waiting", "waiting for events and IMU samples");
 }
 
-template <typename Message>
-void FrameBuilder::OnData(const std::uint8_t* data, std::size_t size) {
-  Message message{};  // scalars too: it is swapped as a whole
-  if constexpr (std::is_same_v<Message, event_packet_t>) std::swap(message, spare_);
-  if (!DecodeChecked(data, size, &message)) {
-    std::is_same_v<Message, event_packet_t> ? inbox_.CountInvalidEvents() : inbox_.CountInvalidImu();
-    return;
+void FrameBuilder::OnEvents(const std::uint8_t* data, std::size_t size) {
+  EventPacket packet;
+  packet.events = std::move(spare_);
+  if (DecodeEvents(data, size, &packet)) {
+    OnPut(inbox_.Put(std::move(packet), size));
+  } else {
+    inbox_.CountInvalidEvents();
   }
-  const StreamInbox::Verdict verdict = inbox_.Put(std::move(message), size);
+}
+
+void FrameBuilder::OnImu(const std::uint8_t* data, std::size_t size) {
+  imu_batch_t message;
+  if (DecodeChecked(data, size, &message)) {
+    OnPut(inbox_.Put(std::move(message), size));
+  } else {
+    inbox_.CountInvalidImu();
+  }
+}
+
+void FrameBuilder::OnPut(StreamInbox::Verdict verdict) {
   if (verdict == StreamInbox::Verdict::kRefused) {
     if (credit_) credit_->Ask();  // the sender should know where we are
     return;
@@ -59,14 +69,17 @@ void FrameBuilder::OnData(const std::uint8_t* data, std::size_t size) {
   Work();
 }
 
-void FrameBuilder::Feed(const StreamInbox::Item& item) {
-  if (const auto* packet = std::get_if<event_packet_t>(&item.message)) {
-    EventArray events;
-    AppendEvents(*packet, &events);
-    const Utime watermark = packet->n > 0 ? events.t.back() : packet->utime;
+void FrameBuilder::Use(EventArray* events, Utime watermark) {
+  builder_.AddEvents(*events, watermark);
+  spare_ = std::move(*events);
+}
+
+void FrameBuilder::Feed(StreamInbox::Item item) {
+  if (auto* const packet = std::get_if<EventPacket>(&item.message)) {
+    const Utime watermark = packet->watermark();
     check_.AddEvents(watermark);
-    guard_.AddEvents(std::move(events), watermark,
-                     [&](const EventArray& good, Utime known) { builder_.AddEvents(good, known); });
+    guard_.AddEvents(std::move(packet->events), watermark,
+                     [&](EventArray& good, Utime known) { Use(&good, known); });
   } else {
     for (const ImuSample& s : SamplesOf(std::get<imu_batch_t>(item.message))) {
       check_.AddImu(s);
@@ -83,10 +96,9 @@ void FrameBuilder::Work() {
     while (auto keyframe = builder_.Next()) Send(std::move(*keyframe));
     if (builder_.awaited_feedback() >= 0) break;  // what is in the inbox waits, and with it the sender
     if (auto item = inbox_.Take()) {
-      Feed(*item);
-      if (auto* const packet = std::get_if<event_packet_t>(&item->message)) spare_ = std::move(*packet);
+      Feed(std::move(*item));
     } else if (!flushed_ && inbox_.ended()) {
-      guard_.Flush([&](const EventArray& good, Utime known) { builder_.AddEvents(good, known); },
+      guard_.Flush([&](EventArray& good, Utime known) { Use(&good, known); },
                    [&](const ImuSample& good) { builder_.AddImu(good); });
       builder_.Flush();
       flushed_ = true;

@@ -39,12 +39,14 @@ class FrameBuilder : public Service {
   void Stop() override;
 
  private:
-  template <typename Message>
-  void OnData(const std::uint8_t* data, std::size_t size);
+  void OnEvents(const std::uint8_t* data, std::size_t size);
+  void OnImu(const std::uint8_t* data, std::size_t size);
+  void OnPut(StreamInbox::Verdict verdict);
   void OnMode(const std::uint8_t* data, std::size_t size);
   void OnEnd(const std::uint8_t* data, std::size_t size);
   void Work();
-  void Feed(const StreamInbox::Item& item);
+  void Feed(StreamInbox::Item item);
+  void Use(EventArray* events, Utime watermark);
   void Send(Keyframe keyframe);
   void ReportState();
   void ReportCounters();
@@ -55,7 +57,7 @@ class FrameBuilder : public Service {
   StatusReporter status_;
   SequenceCounter modes_;
   StreamInbox inbox_;
-  event_packet_t spare_{};  // memory of one that has been used
+  EventArray spare_;  // memory of events that have been used
   std::optional<CreditSender> credit_;
   KeyframeBuilder builder_;
   KeyframeOutbox outbox_;

@@ -8,7 +8,7 @@ namespace evit {
 StreamInbox::StreamInbox(StatusReporter* status, bool lossless)
     : status_(status), lossless_(lossless), events_(status, "EVENTS"), imu_(status, "IMU") {}
 
-StreamInbox::Verdict StreamInbox::Put(event_packet_t message, std::size_t bytes) {
+StreamInbox::Verdict StreamInbox::Put(EventPacket message, std::size_t bytes) {
   return Admit(std::move(message), bytes, &events_);
 }
 
@@ -48,7 +48,7 @@ std::optional<StreamInbox::Item> StreamInbox::Take() {
   if (items_.empty()) return std::nullopt;
   Item item = std::move(items_.front());
   items_.pop_front();
-  if (const auto* events = std::get_if<event_packet_t>(&item.message)) {
+  if (const auto* events = std::get_if<EventPacket>(&item.message)) {
     taken_events_ = events->seq + 1;
   } else {
     taken_imu_ = std::get<imu_batch_t>(item.message).seq + 1;

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "common/service/sequence_counter.h"
-#include "evit/event_packet_t.hpp"
+#include "common/wire/event_decoder.h"
 #include "evit/imu_batch_t.hpp"
 #include "evit/stream_end_t.hpp"
 
@@ -18,7 +18,7 @@ namespace evit {
 /// Lossless: exactly the next message of each stream is admitted. Real time: whatever is not old.
 class StreamInbox {
  public:
-  using Message = std::variant<event_packet_t, imu_batch_t>;
+  using Message = std::variant<EventPacket, imu_batch_t>;
   struct Item {
     Message message;
     std::size_t bytes;
@@ -29,7 +29,7 @@ class StreamInbox {
   enum class Verdict { kTaken, kRefused, kNewStream };
   /// kNewStream: taken, and it is the first of a new run of the sender: what came before is stale, and what
   /// waited here of it has been dropped.
-  Verdict Put(event_packet_t message, std::size_t bytes);
+  Verdict Put(EventPacket message, std::size_t bytes);
   Verdict Put(imu_batch_t message, std::size_t bytes);
   void CountInvalidEvents() { events_.CountInvalid(); }
   void CountInvalidImu() { imu_.CountInvalid(); }

@@ -9,8 +9,8 @@ namespace {
 
 using Verdict = StreamInbox::Verdict;
 
-event_packet_t Events(std::int64_t epoch, std::int64_t seq) {
-  event_packet_t m{};
+EventPacket Events(std::int64_t epoch, std::int64_t seq) {
+  EventPacket m;
   m.epoch = epoch;
   m.seq = seq;
   return m;
@@ -82,7 +82,7 @@ TEST_F(StreamInboxTest, ANewRunOfTheSenderBeginsOnce) {
   EXPECT_EQ(lossless_.Put(Events(8, 0), 1), Verdict::kTaken);
   EXPECT_EQ(lossless_.epoch(), 8);
   EXPECT_TRUE(std::holds_alternative<imu_batch_t>(lossless_.Take()->message));
-  EXPECT_TRUE(std::holds_alternative<event_packet_t>(lossless_.Take()->message));
+  EXPECT_TRUE(std::holds_alternative<EventPacket>(lossless_.Take()->message));
   EXPECT_FALSE(lossless_.Take());
   EXPECT_FALSE(lossless_.ended());  // the end was the old run's
 }

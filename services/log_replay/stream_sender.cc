@@ -24,7 +24,6 @@ StreamSender::StreamSender(Bus* bus, const Channels& channels, const Recording* 
     : bus_(bus),
       recording_(recording),
       channels_{channels.events, channels.imu, channels.ground_truth},
-      events_(),
       imu_(),
       pose_() {
   const std::array<std::string, 3> names = {"EVENTS", "IMU", "GROUND_TRUTH"};
@@ -86,8 +85,8 @@ void StreamSender::SendAgain(std::size_t i, std::int64_t seq) {
 bool StreamSender::Decode(Recording::Kind kind, Span* span) {
   switch (kind) {
     case Recording::kEvents:
-      if (!DecodeChecked(bytes_.data(), bytes_.size(), &events_)) return false;
-      *span = {events_.utime, events_.utime + (events_.n > 0 ? events_.dt_us.back() : 0)};
+      if (!DecodeEvents(bytes_.data(), bytes_.size(), &events_)) return false;
+      *span = {events_.utime, events_.watermark()};
       return true;
     case Recording::kImu:
       if (!DecodeChecked(bytes_.data(), bytes_.size(), &imu_)) return false;

@@ -10,6 +10,7 @@
 #include "common/bus/channels.h"
 #include "common/bus/codec.h"
 #include "common/service/status_reporter.h"
+#include "common/wire/event_decoder.h"
 #include "services/log_replay/position.h"
 #include "services/log_replay/recording.h"
 
@@ -54,7 +55,7 @@ class StreamSender {
   std::array<std::int64_t, 3> next_{}, last_utime_{};
   std::int64_t epoch_ = 0;
   std::vector<std::uint8_t> bytes_;
-  event_packet_t events_;
+  EventPacket events_;
   imu_batch_t imu_;
   body_pose_t pose_;
 };
