@@ -6,7 +6,7 @@ namespace evit {
 
 SurfaceField::SurfaceField(const cv::Mat& surface, int levels) {
   pyramid_.reserve(levels);
-  pyramid_.push_back(surface.clone());
+  pyramid_.push_back(surface);
   for (int l = 1; l < levels; ++l) {
     cv::Mat half;
     cv::pyrDown(pyramid_.back(), half);  // its pixel (i, j) lies on (2i, 2j)

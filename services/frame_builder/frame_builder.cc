@@ -11,6 +11,7 @@ namespace evit {
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(2);  // before the missing answer is complained of
+constexpr std::size_t kMaxSpare = 32;                // packets: more than lossless replay has under way
 
 }  // namespace
 
@@ -38,7 +39,10 @@ FrameBuilder::FrameBuilder(Bus* bus, const Channels& channels, const Settings& s
 
 void FrameBuilder::OnEvents(const std::uint8_t* data, std::size_t size) {
   EventPacket packet;
-  packet.events = std::move(spare_);
+  if (!spare_.empty()) {
+    packet.events = std::move(spare_.back());
+    spare_.pop_back();
+  }
   if (DecodeEvents(data, size, &packet)) {
     OnPut(inbox_.Put(std::move(packet), size));
   } else {
@@ -71,7 +75,7 @@ void FrameBuilder::OnPut(StreamInbox::Verdict verdict) {
 
 void FrameBuilder::Use(EventArray* events, Utime watermark) {
   builder_.AddEvents(*events, watermark);
-  spare_ = std::move(*events);
+  if (spare_.size() < kMaxSpare) spare_.push_back(std::move(*events));
 }
 
 void FrameBuilder::Feed(StreamInbox::Item item) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <optional>
+#include <vector>
 
 #include "common/bus/bus.h"
 #include "common/bus/channels.h"
@@ -57,7 +58,7 @@ class FrameBuilder : public Service {
   StatusReporter status_;
   SequenceCounter modes_;
   StreamInbox inbox_;
-  EventArray spare_;  // memory of events that have been used
+  std::vector<EventArray> spare_;  // memory of events that have been used
   std::optional<CreditSender> credit_;
   KeyframeBuilder builder_;
   KeyframeOutbox outbox_;
