@@ -104,6 +104,12 @@ TEST(RosbagStore, OfABagThatIsCutOffTheWholeChunksAreRead) {
       EXPECT_EQ(e.t.front(), kStart);
       // A chunk may end between the two messages of an instant.
       EXPECT_NEAR(static_cast<double>(recording.Streams().imu.size()), static_cast<double>(e.size()), 1);
+      EXPECT_FALSE(recording.Streams().dropped_imu.cut_off) << "said of the events";
+      RosTopics imu_alone;
+      imu_alone.take_events = imu_alone.take_truth = false;
+      const ImportStreams alone = RosRecording(std::make_unique<CutBag>(cut), imu_alone).Streams();
+      EXPECT_TRUE(alone.dropped_imu.cut_off);
+      EXPECT_EQ(alone.dropped_imu.lost_share, dropped.lost_share);
     }
     std::filesystem::resize_file(path, 5000);
     EXPECT_THROW(CutBag{path}, std::runtime_error);

@@ -144,6 +144,12 @@ void RosRecording::Scan(const std::string& truth_frame) {
       }
     });
   }
+  if (events_.name.empty()) {  // else the events' pass says it
+    for (DropCounts* dropped : {&streams_.dropped_imu, &streams_.dropped_truth}) {
+      dropped->cut_off = pass->cut_off();
+      dropped->lost_share = pass->lost_share();
+    }
+  }
   if (transforms) TakeTruth(frames, truth_frame);
   own_clock_ = packets && !EventPacketDecoder::HostTime(encoding);
   clock_.Solve();

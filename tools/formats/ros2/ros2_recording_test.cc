@@ -150,6 +150,26 @@ TEST(Ros2Recording, OfASqliteBagThatIsCutOffTheBeginningIsRead) {
     EXPECT_THAT(DropText(dropped, "events"), HasSubstr("% of the file"));
     least = n;
   }
+  // Nor does a file that is taken for its other streams lose their ends without a word.
+  std::vector<Message> with_truth;
+  for (Utime k = 0; k < 400; ++k) {
+    for (Message m : Recording()) {
+      m.t += 20'000 * k;
+      with_truth.push_back(m);
+    }
+  }
+  const std::string rest = folder.File("rest.db3");
+  WriteSqlite(rest, with_truth);
+  RosTopics topics;
+  topics.take_events = false;
+  EXPECT_FALSE(RosRecording(OpenRos2Bag(rest), topics).Streams().dropped_truth.cut_off);
+  std::filesystem::resize_file(rest, std::filesystem::file_size(rest) / 2);
+  const ImportStreams cut = RosRecording(OpenRos2Bag(rest), topics).Streams();
+  EXPECT_LT(cut.truth.size(), 800U);
+  for (const DropCounts& counts : {cut.dropped_imu, cut.dropped_truth}) {
+    EXPECT_TRUE(counts.cut_off);
+    EXPECT_NEAR(counts.lost_share, 0.5, 0.01);
+  }
   std::filesystem::resize_file(path, 2000);
   EXPECT_THAT([&] { OpenRos2Bag(path); }, ThrowsMessage<std::runtime_error>(HasSubstr("a.db3")));
 }
