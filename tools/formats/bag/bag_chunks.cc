@@ -102,15 +102,35 @@ bool BagChunks::Take(BagRecord* record) {
   return true;
 }
 
+// The chunk that was being written, whose sizes would have been filled in at its end: all that follows.
+bool BagChunks::TakeOpen(bool packed, std::vector<std::uint8_t>* contents) {
+  cut_off_ = true;
+  contents->clear();
+  if (!packed) {
+    const auto left =
+        static_cast<std::size_t>(std::min<std::uint64_t>(file_.size() - file_.position(), kMaxMessage));
+    while (file_.available() < left && file_.Fill(left - file_.available())) {
+    }
+    BagRecord record;
+    std::size_t whole = 0;
+    while (NextRecord(file_.data(), file_.available(), &whole, &record)) {
+    }
+    contents->assign(file_.data(), file_.data() + whole);
+  }  // else its end is missing, without which it cannot be unpacked
+  file_.Seek(file_.size());
+  return !contents->empty();
+}
+
 bool BagChunks::Next(std::vector<std::uint8_t>* contents) {
   BagRecord record;
   do {
     if (!Take(&record)) return false;
   } while (record.Op() != BagRecord::kChunk);
+  const std::string packed = record.Text("compression");
+  if (record.size == 0 && index_position_ == 0) return TakeOpen(packed != "none", contents);
   const std::uint64_t size = record.Number("size");
   if (size > kMaxMessage) file_.Fail("is damaged: a chunk of " + std::to_string(size) + " bytes");
   contents->resize(size);
-  const std::string packed = record.Text("compression");
   const auto type = packed == "bz2"   ? rosbag::compression::BZ2
                     : packed == "lz4" ? rosbag::compression::LZ4
                                       : rosbag::compression::Uncompressed;

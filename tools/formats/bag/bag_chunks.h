@@ -33,17 +33,19 @@ class BagChunks {
   /// Throws std::runtime_error naming the file where it is no bag of format 2.0.
   explicit BagChunks(const std::string& path);
 
-  /// The contents of the next chunk, uncompressed, valid until the next call. False at the end. Throws
-  /// std::runtime_error naming file and position where it is damaged.
+  /// The contents of the next chunk, uncompressed, valid until the next call. False at the end. Of a
+  /// recording that was not ended the chunk that was being written is the last: its whole records, none where
+  /// it is compressed. Throws std::runtime_error naming file and position where it is damaged.
   bool Next(std::vector<std::uint8_t>* contents);
   /// Where the index should begin; 0: recording was not ended.
   std::uint64_t index_position() const { return index_position_; }
-  /// At the end: whether the file ends within a record.
+  /// At the end: whether the file ends within a record, or within the chunk that was being written.
   bool cut_off() const { return cut_off_; }
   const ByteFile& file() const { return file_; }
 
  private:
   bool Take(BagRecord* record);
+  bool TakeOpen(bool packed, std::vector<std::uint8_t>* contents);
 
   ByteFile file_;
   std::uint64_t index_position_ = 0;

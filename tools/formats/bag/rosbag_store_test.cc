@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "tests/helpers/all_events.h"
 #include "tests/helpers/ros_bags.h"
@@ -113,6 +114,38 @@ TEST(RosbagStore, OfABagThatIsCutOffTheWholeChunksAreRead) {
     }
     std::filesystem::resize_file(path, 5000);
     EXPECT_THROW(CutBag{path}, std::runtime_error);
+  }
+}
+
+// As a recorder that was killed leaves it: no index, sizes of 0 before the last chunk, and its end unwritten.
+TEST(RosbagStore, OfABagWhoseRecordingWasNotEndedNothingWholeIsLost) {
+  const TemporaryFolder folder("rosbag");
+  constexpr Utime kMessages = 3000;
+  for (const auto compression :
+       {rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+    const bool packed = compression != rosbag::compression::Uncompressed;
+    for (const bool more : {false, true}) {
+      SCOPED_TRACE(testing::Message() << "compression " << compression << ", more: " << more);
+      const std::string path = folder.File("a.bag"), active = folder.File("a.bag.active");
+      rosbag::Bag bag(path, rosbag::bagmode::Write);
+      bag.setCompression(compression);
+      bag.setChunkThreshold(60'000);
+      for (Utime k = 0; k < kMessages; ++k)
+        Record(&bag, "/cam", kStart + 1000 * k, PacketMessage(kStart + 1000 * k, 70'000 + 1000 * k));
+      std::filesystem::copy_file(path, active, std::filesystem::copy_options::overwrite_existing);
+      // A part of a packed chunk, or of a record.
+      if (more) std::ofstream(active, std::ios::app) << std::string(1000, packed ? '\xE7' : '\x01');
+      ASSERT_TRUE(CutBag::Recognises(active));
+      RosRecording recording(std::make_unique<CutBag>(active), {});
+      DropCounts dropped;
+      const EventArray e = AllEvents(&recording, 640, 480, &dropped);
+      EXPECT_TRUE(dropped.cut_off);
+      // What the recorder held back: 4 kB, or a chunk that is being packed.
+      const Utime held = (packed ? 60'000 : 4096) / 100;
+      EXPECT_GT(static_cast<Utime>(e.size()), kMessages - held);
+      EXPECT_LT(static_cast<Utime>(e.size()), kMessages);
+      EXPECT_EQ(e.t.front(), kStart);
+    }
   }
 }
 
