@@ -28,17 +28,17 @@ void Steadiness::Add(const std::vector<ImuSample>& samples) {
   while (!samples_.empty() && samples_.front().t < samples_.back().t - kKept) samples_.pop_front();
 }
 
-std::optional<Eigen::Vector3d> Steadiness::SteadyRate(Utime begin) const {
+std::optional<ImuSample> Steadiness::SteadyReading(Utime begin) const {
   if (samples_.empty()) return std::nullopt;
   const Utime end = samples_.back().t, from = std::min(begin, end - kShortest);
   if (samples_.front().t > from) return std::nullopt;
   struct Mean {
-    Eigen::Vector3d gyro = Eigen::Vector3d::Zero(), accel = Eigen::Vector3d::Zero();
+    ImuSample reading;
     int n = 0;
     void Add(const ImuSample& sample) {
       ++n;
-      gyro += (sample.gyro - gyro) / n;
-      accel += (sample.accel - accel) / n;
+      reading.gyro += (sample.gyro - reading.gyro) / n;
+      reading.accel += (sample.accel - reading.accel) / n;
     }
   };
   std::vector<Mean> blocks(static_cast<std::size_t>((end - from) / kBlock) + 1);  // newest first
@@ -51,14 +51,18 @@ std::optional<Eigen::Vector3d> Steadiness::SteadyRate(Utime begin) const {
   const double max_rate = Limit(kMaxRate, noise_.gyro_density);
   const double max_force = Limit(kMaxForce, noise_.accel_density);
   for (const Mean& block : blocks) {
-    // The oldest block may be cut off: with few samples it would say little but noise.
-    if (2 * block.n * static_cast<int>(blocks.size()) < all.n) continue;
-    if ((block.gyro - all.gyro).cwiseAbs().maxCoeff() > max_rate ||
-        (block.accel - all.accel).cwiseAbs().maxCoeff() > max_force) {
+    if (2 * block.n * static_cast<int>(blocks.size()) < all.n) {
+      // The oldest may be cut off: with few samples it would say little but noise. A hole could hide motion.
+      if (&block != &blocks.back()) return std::nullopt;
+      continue;
+    }
+    if ((block.reading.gyro - all.reading.gyro).cwiseAbs().maxCoeff() > max_rate ||
+        (block.reading.accel - all.reading.accel).cwiseAbs().maxCoeff() > max_force) {
       return std::nullopt;
     }
   }
-  return all.gyro;
+  all.reading.t = end;
+  return all.reading;
 }
 
 }  // namespace evit

@@ -20,9 +20,9 @@ class Steadiness {
   /// Samples in order of time; one that is not newer than the newest so far is left out.
   void Add(const std::vector<ImuSample>& samples);
 
-  /// rad/s, bias included: mean rate of the last quarter of a second, or since `begin` (us) where that is
-  /// longer, if the readings stayed the same for so long.
-  std::optional<Eigen::Vector3d> SteadyRate(Utime begin) const;
+  /// Mean reading of the last quarter of a second, or since `begin` (us) where that is longer, at the newest
+  /// sample's time, if the readings stayed the same for so long and none are missing.
+  std::optional<ImuSample> SteadyReading(Utime begin) const;
 
  private:
   ImuNoise noise_;

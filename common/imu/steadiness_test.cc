@@ -35,13 +35,15 @@ std::vector<ImuSample> Read(const Course& course, Utime begin, Utime end, unsign
 
 ImuSample Resting(double /*seconds*/) { return ImuSample{0, kRestingRate, kRestingForce}; }
 
-TEST(Steadiness, TellsTheGyrosBiasAtRest) {
+TEST(Steadiness, TellsTheReadingsAtRest) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     Steadiness steadiness(kDensities);
     steadiness.Add(Read(Resting, 0, 300'000, seed));
-    const auto rate = steadiness.SteadyRate(300'000);
-    ASSERT_TRUE(rate) << seed;
-    EXPECT_LT((*rate - kRestingRate).norm(), 0.006);
+    const auto reading = steadiness.SteadyReading(300'000);
+    ASSERT_TRUE(reading) << seed;
+    EXPECT_LT((reading->gyro - kRestingRate).norm(), 0.006);
+    EXPECT_LT((reading->accel - kRestingForce).norm(), 0.012);
+    EXPECT_EQ(reading->t, 300'000);
   }
 }
 
@@ -56,20 +58,20 @@ TEST(Steadiness, VibrationIsNoMotion) {
         return sample;
       },
       0, 300'000));
-  EXPECT_TRUE(steadiness.SteadyRate(300'000));
+  EXPECT_TRUE(steadiness.SteadyReading(300'000));
 }
 
 TEST(Steadiness, AHandMoves) {
   for (Utime begin = 0; begin < 3'000'000; begin += 100'000) {
     Steadiness steadiness(kDensities);
     steadiness.Add(test::HandheldImu(begin, begin + 300'000, 5'000));
-    EXPECT_FALSE(steadiness.SteadyRate(begin + 300'000)) << begin;
+    EXPECT_FALSE(steadiness.SteadyReading(begin + 300'000)) << begin;
   }
 }
 
 TEST(Steadiness, NeedsAQuarterOfASecondOrAllSinceTheInstantAsked) {
   Steadiness steadiness(kDensities);
-  EXPECT_FALSE(steadiness.SteadyRate(0));
+  EXPECT_FALSE(steadiness.SteadyReading(0));
   // A brake of 1 m/s^2 until 100 ms.
   const Course stop = [](double t) {
     ImuSample sample = Resting(t);
@@ -77,21 +79,28 @@ TEST(Steadiness, NeedsAQuarterOfASecondOrAllSinceTheInstantAsked) {
     return sample;
   };
   steadiness.Add(Read(stop, 0, 340'000));
-  EXPECT_FALSE(steadiness.SteadyRate(340'000));
+  EXPECT_FALSE(steadiness.SteadyReading(340'000));
   steadiness.Add(Read(stop, 340'000, 360'000));  // the first of them is there already
-  EXPECT_TRUE(steadiness.SteadyRate(360'000));
-  EXPECT_FALSE(steadiness.SteadyRate(50'000));
-  EXPECT_FALSE(steadiness.SteadyRate(-1));  // nothing is known from then
+  EXPECT_TRUE(steadiness.SteadyReading(360'000));
+  EXPECT_FALSE(steadiness.SteadyReading(50'000));
+  EXPECT_FALSE(steadiness.SteadyReading(-1));  // nothing is known from then
   steadiness.Add(Read(stop, 365'000, 1'500'000));
-  EXPECT_FALSE(steadiness.SteadyRate(400'000));  // forgotten
-  EXPECT_TRUE(steadiness.SteadyRate(600'000));
+  EXPECT_FALSE(steadiness.SteadyReading(400'000));  // forgotten
+  EXPECT_TRUE(steadiness.SteadyReading(600'000));
+}
+
+TEST(Steadiness, AHoleMayHideMotion) {
+  Steadiness steadiness(kDensities);
+  steadiness.Add(Read(Resting, 0, 100'000));
+  steadiness.Add(Read(Resting, 290'000, 350'000));
+  EXPECT_FALSE(steadiness.SteadyReading(350'000));
 }
 
 // Noise that a rig file exaggerates must not hide motion.
 TEST(Steadiness, LargeDensitiesDoNotHideMotion) {
   Steadiness steadiness({1, 10, 0, 0});
   steadiness.Add(test::HandheldImu(0, 300'000, 5'000));
-  EXPECT_FALSE(steadiness.SteadyRate(300'000));
+  EXPECT_FALSE(steadiness.SteadyReading(300'000));
 }
 
 }  // namespace

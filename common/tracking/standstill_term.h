@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "common/imu/imu_sample.h"
 #include "common/tracking/state.h"
 
 namespace evit {
@@ -24,9 +25,11 @@ class StandstillTerm {
   double position_weight_, rotation_weight_;
 };
 
-/// Whether a body whose IMU is steady (`steady_rate`: rad/s, bias included; see Steadiness) may stand still:
-/// as far as its velocity and the gyro's bias are known (`information` of `state`), it does. A steady IMU
-/// alone does not tell it from even motion, as on a lift.
-bool MayStandStill(const BodyState& state, const Matrix15d& information, const Eigen::Vector3d& steady_rate);
+/// Whether a body whose IMU is steady (`reading`: its mean, biases included; see Steadiness) may stand still,
+/// as far as its state is known (`information`): velocity, rate less the gyro's bias, and specific force less
+/// gravity (`gravity`, m/s^2 along the map's z) and the accelerometer's bias must be zero. A steady IMU alone
+/// does not tell a standstill from even motion, or from a gentle start.
+bool MayStandStill(const BodyState& state, const Matrix15d& information, const ImuSample& reading,
+                   double gravity);
 
 }  // namespace evit

@@ -15,24 +15,24 @@ constexpr int kFewest = 5, kMean = 10;  // keyframes
 void StartProbation::Begin(Utime t) {
   began_ = t;
   mean_significance_ = n_ = 0;
+  passed_ = false;
 }
 
-void StartProbation::Skip() { began_ = 0; }
+void StartProbation::Skip() {
+  began_ = 0;
+  passed_ = true;
+}
 
 void StartProbation::Add(double significance) {
   n_ = std::min(n_ + 1, kMean);
   mean_significance_ += (significance - mean_significance_) / n_;
+  if (n_ >= kFewest && mean_significance_ >= kFollowSignificance) passed_ = true;
 }
-
-bool StartProbation::Over(Utime t) const { return began_ == 0 || t - began_ > kLasts; }
 
 std::string StartProbation::WhyFalse(Utime t) const {
-  if (Over(t) || n_ < kFewest || mean_significance_ >= kFollowSignificance) return "";
+  const bool over = began_ == 0 || t - began_ > kLasts;
+  if (over || n_ < kFewest || mean_significance_ >= kFollowSignificance) return "";
   return "the map lies on the events no better than at a false pose";
-}
-
-bool StartProbation::Passed(Utime t) const {
-  return Over(t) || (n_ >= kFewest && mean_significance_ >= kFollowSignificance);
 }
 
 }  // namespace evit

@@ -20,15 +20,14 @@ class StartProbation {
 
   /// Why the start is a false one, seen at `t` (us); empty while it may be right.
   std::string WhyFalse(Utime t) const;
-  /// Whether it has turned out to be right by `t`, us.
-  bool Passed(Utime t) const;
+  /// Whether it has turned out to be right: once five keyframes fitted.
+  bool Passed() const { return passed_; }
 
  private:
-  bool Over(Utime t) const;
-
   Utime began_ = 0;               // us; 0: skipped
   double mean_significance_ = 0;  // of the last ten keyframes or so
   int n_ = 0;                     // averaged in it
+  bool passed_ = false;
 };
 
 }  // namespace evit

@@ -37,6 +37,7 @@ void WindowTracker::Start(std::deque<WindowNode> nodes, const StatePrior& prior)
   window_.Solve();
   const Utime t = window_.nodes().back().t;
   coasted_ = 0;
+  steadiness_ = Steadiness(rig_.imu_noise);
   probation_.Begin(t);
   rivals_.Start(t);
   SetUncertainty(window_.nodes().back());
@@ -66,6 +67,7 @@ void WindowTracker::Start(Utime t, const BodyState& state, const Matrix15d& info
   WindowNode node;
   node.t = t;
   coasted_ = 0;
+  steadiness_ = Steadiness(rig_.imu_noise);
   probation_.Skip();
   rivals_.Start(t);
   node.state = state;
@@ -198,13 +200,15 @@ bool WindowTracker::StandsStill(const KeyframeInput& keyframe, const Eigen::Vect
   // A pose that would soon be LOST, or that a start has not confirmed, must not be kept for as long as the
   // body stands.
   constexpr double kKnown = 1. / 3;  // of the largest standard deviation of the position
-  if (!probation_.Passed(keyframe.t) || keyframe.imu.size() < 2) return false;
-  const std::optional<Eigen::Vector3d> steady_rate = steadiness_.SteadyRate(keyframe.imu.front().t);
-  if (!steady_rate) return false;
+  if (!probation_.Passed() || keyframe.imu.size() < 2) return false;
+  const std::optional<ImuSample> reading = steadiness_.SteadyReading(keyframe.imu.front().t);
+  if (!reading) return false;
   const Matrix15d information = window_.NewestInformation();
+  if (!MayStandStill(state(), information, *reading, rig_.gravity)) return false;
+  const std::deque<WindowNode>& nodes = window_.nodes();
+  if (nodes.size() > 1 && nodes[nodes.size() - 2].stood_still) return true;
   const Matrix6d covariance = uncertainty_.Covariance(WindowCovariance(information), state().velocity, rate);
-  return PositionSigma(covariance) <= kKnown * options_.failure.max_position_sigma_m &&
-         MayStandStill(state(), information, *steady_rate);
+  return PositionSigma(covariance) <= kKnown * options_.failure.max_position_sigma_m;
 }
 
 // From time to time, looks for a pose that explains the events better than the newest keyframe's; returned

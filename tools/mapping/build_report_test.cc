@@ -17,6 +17,7 @@ BuiltMap Built(std::size_t measured, std::size_t alone, std::size_t confirmed) {
 
 TEST(DoubtOf, NamesDepthsThatDisagree) {
   EXPECT_EQ(DoubtOf(Built(1000, 300, 600)), "");
+  EXPECT_THAT(DoubtOf(Built(1000, 300, 500)), HasSubstr("only 71 % of the depths agree"));
   EXPECT_THAT(DoubtOf(Built(1000, 300, 200)), HasSubstr("only 29 % of the depths agree"));
 }
 
