@@ -133,14 +133,21 @@ RotationLag FindRotationLag(const std::vector<FlowSample>& flow, const std::vect
   lag.explained_as_is = Explained(flow, gyro, 0, kFewest);
   if (lag.explained_as_is < 0) return lag;
   lag.pairs = flow.size();
+  const Utime last = 2 * range / kStep;  // steps
   const auto find = [&](Skipped skipped, double* explained) {
     std::vector<double> shares;
-    for (Utime offset = -range; offset <= range; offset += kStep)
-      shares.push_back(Explained(flow, gyro, offset, kFewest / 2, skipped));
+    for (Utime k = 0; k <= last; ++k)
+      shares.push_back(Explained(flow, gyro, k * kStep - range, kFewest / 2, skipped));
     *explained = *std::max_element(shares.begin(), shares.end());
     return TopOf(shares) * static_cast<double>(kStep) - static_cast<double>(range);
   };
-  lag.offset = std::llround(find({}, &lag.explained));
+  const double best = find({}, &lag.explained);
+  // At an end: the best may lie beyond, and all eighths would agree on the end.
+  if (best <= static_cast<double>(-range) || best >= static_cast<double>(last * kStep - range)) {
+    lag.pairs = 0;
+    return lag;
+  }
+  lag.offset = std::llround(best);
   std::vector<double> offsets;
   double mean = 0, variance = 0, unused = 0;
   for (std::size_t k = 0; k < kParts; ++k) {

@@ -26,9 +26,9 @@ struct RotationLag {
   double sigma = 0;            // us, of that: by leaving out each eighth of the recording (jackknife)
   double explained = 0;        // share of the image's motion that the gyro explains there, 0..1
   double explained_as_is = 0;  // at none
-  std::size_t pairs = 0;       // of flow and gyro; 0: too few to tell
+  std::size_t pairs = 0;       // of flow and gyro; 0: no result, for lack of pairs or with the best at an end
 };
-/// Within `range` us around none.
+/// Within `range` us around none; no result where the best is at an end of that.
 RotationLag FindRotationLag(const std::vector<FlowSample>& flow, const std::vector<ImuSample>& imu,
                             Utime range);
 

@@ -96,6 +96,15 @@ TEST(AlignClocks, ALagComesWithItsUncertainty) {
   EXPECT_EQ(FindRotationLag({}, steady.Imu(0), 200'000).pairs, 0U);
 }
 
+TEST(AlignClocks, ALagBeyondTheRangeIsNoResult) {
+  const Turning turning(false);
+  const std::vector<FlowSample> flow = turning.Flow();
+  for (const Utime offset : {Utime{300'000}, Utime{-300'000}})
+    EXPECT_EQ(FindRotationLag(flow, turning.Imu(offset), 200'000).pairs, 0U) << offset;
+  for (const Utime offset : {Utime{190'000}, Utime{-190'000}})
+    EXPECT_GT(FindRotationLag(flow, turning.Imu(offset), 200'000).pairs, 0U) << offset;
+}
+
 TEST(AlignClocks, SteadyOrNoMotionIsRefused) {
   const Turning turning(true);
   EXPECT_THAT([&] { AlignClocks(turning.Flow(), turning.Imu(0), 0, 2'000'000); },
