@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "common/diagnosis/rising_samples.h"
 #include "common/geometry/so3.h"
 #include "common/text/format_text.h"
 
@@ -58,9 +59,7 @@ bool UpwardSpeed(const Trajectory& truth, Utime t, double* speed) {
 }  // namespace
 
 MeanForce MeasureMeanForce(const std::vector<ImuSample>& unordered, const Trajectory& truth) {
-  std::vector<ImuSample> samples;
-  for (const ImuSample& s : unordered)
-    if (samples.empty() || s.t > samples.back().t) samples.push_back(s);
+  const std::vector<ImuSample> samples = RisingSamples(unordered);
   MeanForce force;
   if (samples.size() < 100) return force;
   // What the truth covers, where it covers most.

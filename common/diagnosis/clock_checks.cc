@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "common/alignment/clock_alignment.h"
+#include "common/diagnosis/rising_samples.h"
 #include "common/text/format_text.h"
 
 namespace evit::diagnosis {
@@ -106,25 +107,24 @@ Finding Lag(const EventCensus& events, const std::vector<ImuSample>& imu, Utime 
   return Good("time-offset", figure);
 }
 
-// Of image and gyro; good where motion is too little, or too steady, to tell.
+// Of image and gyro; good where motion is too little, or too steady, to tell. `rates`: what the event rate
+// measured, which was good.
 Finding Turning(const std::vector<FlowSample>& flow, const std::vector<ImuSample>& unordered,
-                Utime time_offset) {
+                Utime time_offset, const std::string& rates) {
   constexpr double kByTranslation = 25'000, kLeastExplained = 0.5;
   constexpr Utime kReach = 200'000;
-  std::vector<ImuSample> imu;
-  for (const ImuSample& s : unordered)
-    if (imu.empty() || s.t > imu.back().t) imu.push_back(s);
+  const std::vector<ImuSample> imu = RisingSamples(unordered);
   std::vector<FlowSample> of_imu = flow;
   for (FlowSample& s : of_imu) s.t += time_offset;
   const RotationLag lag = FindRotationLag(of_imu, imu, kReach);
-  if (lag.pairs == 0) return Good("image-rotation", "too little motion to tell");
+  if (lag.pairs == 0) return Good("time-offset", rates + "; the image's motion does not tell");
   const auto ms = [](double us) { return us / 1e3; };
   const auto off = static_cast<double>(-lag.offset);  // to add to the events' stamps
   const std::string figure =
       FormatText("the image turns with the gyro at %+.0f +-%.0f ms (%.0f %% explained; at 0 ms %.0f %%)",
                  ms(off), ms(lag.sigma), 100 * lag.explained, 100 * lag.explained_as_is);
   if (lag.explained < kLeastExplained || std::abs(off) < kByTranslation + 4 * lag.sigma)
-    return Good("image-rotation", figure);
+    return Good("time-offset", rates + "; " + figure);
   return {
       "time-offset", Severity::kWarning, figure,
       FormatText("The camera's clock is some %.0f ms off the IMU's.", ms(off)),
@@ -156,7 +156,8 @@ Findings CheckClocks(const EventCensus& events, const std::vector<FlowSample>& f
   if (events.count() == 0 || imu.empty()) return {};
   Findings found{Span(events, imu, time_offset)};
   if (found.back().severity == Severity::kGood) found.push_back(Lag(events, imu, time_offset));
-  if (found.back().severity == Severity::kGood) found.push_back(Turning(flow, imu, time_offset));
+  if (found.back().check == "time-offset" && found.back().severity == Severity::kGood)
+    found.back() = Turning(flow, imu, time_offset, found.back().figure);
   return found;
 }
 

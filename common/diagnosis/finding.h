@@ -20,6 +20,9 @@ using Findings = std::vector<Finding>;
 /// Worst first; of equal ones the more basic cause, which is the order they were found in.
 void SortBySeverity(Findings* findings);
 
+/// Takes away what is good by one check and wrong by another of the same name, which sees more.
+void DropContradicted(Findings* findings);
+
 Finding Good(std::string check, std::string figure);
 
 }  // namespace evit::diagnosis

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "common/diagnosis/rising_samples.h"
 #include "common/geometry/so3.h"
 
 namespace evit::diagnosis {
@@ -91,9 +92,7 @@ double Disagreement(const std::vector<Pair>& pairs, double scale, const Eigen::M
 
 GyroFit FitGyroToGravity(const std::vector<ImuSample>& unordered) {
   GyroFit fit;
-  std::vector<ImuSample> ordered;
-  for (const ImuSample& s : unordered)
-    if (ordered.empty() || s.t > ordered.back().t) ordered.push_back(s);
+  const std::vector<ImuSample> ordered = RisingSamples(unordered);
   if (ordered.size() < 20) return fit;
   const Samples samples(ordered);
   std::vector<Pair> pairs;

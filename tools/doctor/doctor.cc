@@ -127,6 +127,7 @@ Findings Examine(const Patient& patient, const std::function<void(double)>& prog
                      "Some rows of the truth cannot be used.",
                      "sort the file by time (sort -g); remove repeated rows"});
   if (!patient.map.empty()) CheckPlace(patient, rig, truth, imu, excerpts, &found);
+  diagnosis::DropContradicted(&found);
   diagnosis::SortBySeverity(&found);
   return found;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <random>
+#include <set>
 
 #include "common/diagnosis/clock_checks.h"
 #include "common/diagnosis/event_checks.h"
@@ -18,6 +19,7 @@ namespace evit::doctor {
 namespace {
 
 using diagnosis::Finding;
+using diagnosis::Findings;
 using diagnosis::Severity;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -35,7 +37,17 @@ TEST_P(DoctorFault, IsNamedFirstOrSecond) {
   Sample sick = GoodSample();
   GetParam().make(&sick);
   std::string said;
-  EXPECT_TRUE(IsNamed(GetParam(), ExamineSample(sick), &said)) << said;
+  const Findings found = ExamineSample(sick);
+  EXPECT_TRUE(IsNamed(GetParam(), found, &said)) << said;
+  std::set<std::string> wrong, good;
+  for (const Finding& f : found) {
+    if (f.severity != Severity::kGood) {
+      wrong.insert(f.check);
+    } else {
+      EXPECT_TRUE(good.insert(f.check).second) << f.check << " is listed twice";
+    }
+  }
+  for (const std::string& check : good) EXPECT_EQ(wrong.count(check), 0U) << check << " is good and wrong";
 }
 
 INSTANTIATE_TEST_SUITE_P(Doctor, DoctorFault, testing::ValuesIn(Faults()),
