@@ -20,23 +20,6 @@ std::uint32_t Length(const std::uint8_t* at) {
   return n;
 }
 
-// `length`, then "name=value", again and again.
-bool ParseHeader(const std::uint8_t* data, std::size_t size, BagRecord* record) {
-  record->fields.clear();
-  for (std::size_t at = 0; at < size;) {
-    if (size - at < 4) return false;
-    const std::uint32_t n = Length(data + at);
-    at += 4;
-    if (n > size - at) return false;
-    const std::string_view field(reinterpret_cast<const char*>(data + at), n);
-    const std::size_t equals = field.find('=');
-    if (equals == std::string_view::npos) return false;
-    record->fields.emplace(field.substr(0, equals), field.substr(equals + 1));
-    at += n;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::uint64_t BagRecord::Number(std::string_view field) const {
@@ -52,12 +35,29 @@ std::string BagRecord::Text(std::string_view field) const {
   return found == fields.end() ? "" : found->second;
 }
 
+// `length`, then "name=value", again and again.
+bool ParseFields(const std::uint8_t* data, std::size_t size, BagRecord* record) {
+  record->fields.clear();
+  for (std::size_t at = 0; at < size;) {
+    if (size - at < 4) return false;
+    const std::uint32_t n = Length(data + at);
+    at += 4;
+    if (n > size - at) return false;
+    const std::string_view field(reinterpret_cast<const char*>(data + at), n);
+    const std::size_t equals = field.find('=');
+    if (equals == std::string_view::npos) return false;
+    record->fields.emplace(field.substr(0, equals), field.substr(equals + 1));
+    at += n;
+  }
+  return true;
+}
+
 bool NextRecord(const std::uint8_t* data, std::size_t size, std::size_t* at, BagRecord* record) {
   std::size_t here = *at;
   if (size - here < 4) return false;
   const std::uint32_t header = Length(data + here);
   here += 4;
-  if (size - here < 4 || header > size - here - 4 || !ParseHeader(data + here, header, record)) return false;
+  if (size - here < 4 || header > size - here - 4 || !ParseFields(data + here, header, record)) return false;
   here += header;
   record->size = Length(data + here);
   here += 4;

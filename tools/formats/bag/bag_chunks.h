@@ -24,6 +24,10 @@ struct BagRecord {
   static constexpr int kMessage = 2, kBagHeader = 3, kChunk = 5, kConnection = 7;
 };
 
+/// Takes the fields of a header, or of a connection's data, which are laid out like one; false where they are
+/// not whole.
+bool ParseFields(const std::uint8_t* data, std::size_t size, BagRecord* record);
+
 /// Takes the record at `*at` of a piece of memory and moves on; false where it is not whole.
 bool NextRecord(const std::uint8_t* data, std::size_t size, std::size_t* at, BagRecord* record);
 

@@ -1,6 +1,5 @@
 #include "tools/formats/bag/cut_bag.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -57,16 +56,8 @@ class CutBagPass : public MessagePass {
   void Connect(std::uint32_t id, const BagRecord& record) {
     const std::string topic = record.Text("topic");
     connections_[id] = topic;
-    // The data are fields again, like a header.
-    std::vector<std::uint8_t> again;
-    const auto n = static_cast<std::uint32_t>(record.size);
-    const auto* length = reinterpret_cast<const std::uint8_t*>(&n);
-    again.insert(again.end(), length, length + sizeof n);
-    again.insert(again.end(), record.data, record.data + record.size);
-    again.insert(again.end(), sizeof n, 0);
     BagRecord described;
-    std::size_t at = 0;
-    if (NextRecord(again.data(), again.size(), &at, &described)) types_[topic] = described.Text("type");
+    if (ParseFields(record.data, record.size, &described)) types_[topic] = described.Text("type");
   }
 
   BagChunks chunks_;
@@ -100,11 +91,7 @@ bool CutBag::Recognises(const std::string& path) {
 CutBag::CutBag(const std::string& path) : path_(path), part_{path, {}} {
   CutBagPass pass(path, nullptr);
   RosMessage message;
-  while (pass.Next(&message)) {
-    TopicSpan& span =
-        part_.topics.try_emplace(message.topic, TopicSpan{pass.time(), pass.time()}).first->second;
-    span.begin = std::min(span.begin, pass.time()), span.end = std::max(span.end, pass.time());
-  }
+  while (pass.Next(&message)) part_.Cover(message.topic, pass.time());
   for (const auto& [name, type] : pass.types()) topics_.push_back({name, type});
   if (part_.topics.empty())
     throw std::runtime_error(path + ": was cut off before its first whole chunk; copy it again");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -44,6 +45,12 @@ struct TopicSpan {
 struct BagPart {
   std::string file;
   std::map<std::string, TopicSpan> topics;
+
+  /// Widens the topic's span to a message that was recorded at `t`.
+  void Cover(const std::string& topic, Utime t) {
+    TopicSpan& span = topics.try_emplace(topic, TopicSpan{t, t}).first->second;
+    span.begin = std::min(span.begin, t), span.end = std::max(span.end, t);
+  }
 };
 
 /// A bag of whatever container: what topics it has, and passes over them.

@@ -1,6 +1,5 @@
 #include "tools/formats/ros2/mcap_bag.h"
 
-#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -152,11 +151,7 @@ std::vector<BagPart> McapBag::Parts() const {
   McapPass pass(path_, names);
   BagPart part{path_, {}};
   RosMessage message;
-  while (pass.Next(&message)) {
-    const Utime t = pass.recorded();
-    TopicSpan& span = part.topics.try_emplace(message.topic, TopicSpan{t, t}).first->second;
-    span = {std::min(span.begin, t), std::max(span.end, t)};
-  }
+  while (pass.Next(&message)) part.Cover(message.topic, pass.recorded());
   return {part};
 }
 

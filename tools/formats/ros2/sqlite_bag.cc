@@ -211,11 +211,7 @@ std::vector<BagPart> SqliteBag::Parts() const {
   if (lost_share_ > 0) {
     CutSqlitePass pass(path_, ids_, lost_share_);
     RosMessage message;
-    while (pass.Next(&message)) {
-      TopicSpan& span =
-          part.topics.try_emplace(message.topic, TopicSpan{pass.time(), pass.time()}).first->second;
-      span.begin = std::min(span.begin, pass.time()), span.end = std::max(span.end, pass.time());
-    }
+    while (pass.Next(&message)) part.Cover(message.topic, pass.time());
     return {part};
   }
   Database db(path_);
