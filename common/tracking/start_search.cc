@@ -88,6 +88,7 @@ std::vector<SE3> BestPlaces(const AlignmentSettings& settings, const SurfaceFiel
   std::stable_sort(places.begin(), places.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<SE3> best;
+  best.reserve(kTried);
   for (int k = 0; k < kTried; ++k) best.push_back(places[k].second);
   return best;
 }
