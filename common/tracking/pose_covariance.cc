@@ -63,7 +63,9 @@ Matrix6d TimeOffsetCovariance(const Eigen::Vector3d& velocity, const Eigen::Vect
 
 Matrix6d WindowCovariance(const Matrix15d& information) { return kAsOne * PoseCovariance(information); }
 
-Matrix15d WindowStateCovariance(const Matrix15d& information) { return kAsOne * Covariance(information); }
+Matrix6d MotionCovariance(const Matrix15d& information) {
+  return kAsOne * Covariance(information).block<6, 6>(6, 6);
+}
 
 void PoseUncertainty::SetAlignment(const Matrix6d& alignment, const AlignmentMisfit& misfit) {
   constexpr int kMisfits = 10;     // keyframes: a quarter to half a second

@@ -33,8 +33,8 @@ Matrix6d TimeOffsetCovariance(const Eigen::Vector3d& velocity, const Eigen::Vect
 /// says.
 Matrix6d WindowCovariance(const Matrix15d& information);
 
-/// The same of the whole state.
-Matrix15d WindowStateCovariance(const Matrix15d& information);
+/// The same of velocity (m/s, map frame) and gyro bias (rad/s).
+Matrix6d MotionCovariance(const Matrix15d& information);
 
 /// The sum of these, which the trackers report.
 class PoseUncertainty {

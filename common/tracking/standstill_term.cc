@@ -12,7 +12,6 @@ namespace {
 // 100 ms, over an hour of 4 cm and 1 degree.
 constexpr double kSpeed = 0.002;  // m/s
 constexpr double kRate = 0.001;   // rad/s
-constexpr double kForce = 0.01;   // m/s^2: noise of a mean over a quarter of a second, and scale
 
 }  // namespace
 
@@ -38,26 +37,14 @@ StandstillTerm::Vector9d StandstillTerm::Evaluate(const BodyState& i, const Body
   return r;
 }
 
-bool MayStandStill(const BodyState& state, const Matrix15d& information, const ImuSample& reading,
-                   double gravity) {
-  // Refuse one standstill in a hundred each: 6 and 3 degrees of freedom.
-  constexpr double kChi2Motion = 16.8, kChi2Force = 11.3;
-  const Matrix15d covariance = WindowStateCovariance(information);
+bool MayStandStill(const BodyState& state, const Matrix15d& information, const Eigen::Vector3d& steady_rate) {
+  constexpr double kChi2 = 16.8;  // 6 degrees of freedom: refuses one standstill in a hundred
   Vector6d moved;
-  moved << state.velocity, reading.gyro - state.bias.gyro;
-  Matrix6d of_moved = covariance.block<6, 6>(6, 6);
-  of_moved.diagonal().head<3>().array() += kSpeed * kSpeed;
-  of_moved.diagonal().tail<3>().array() += kRate * kRate;
-  if (moved.dot(of_moved.ldlt().solve(moved)) > kChi2Motion) return false;
-
-  const Eigen::Vector3d up = state.T_map_body.q.conjugate() * Eigen::Vector3d(0, 0, gravity);
-  const Eigen::Vector3d force = reading.accel - up - state.bias.accel;
-  Eigen::Matrix<double, 3, 15> J = Eigen::Matrix<double, 3, 15>::Zero();  // of the force
-  J.block<3, 3>(0, 3) = -Hat(up);
-  J.block<3, 3>(0, 12) = -Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d of_force =
-      J * covariance * J.transpose() + kForce * kForce * Eigen::Matrix3d::Identity();
-  return force.dot(of_force.ldlt().solve(force)) <= kChi2Force;
+  moved << state.velocity, steady_rate - state.bias.gyro;
+  Matrix6d covariance = MotionCovariance(information);
+  covariance.diagonal().head<3>().array() += kSpeed * kSpeed;
+  covariance.diagonal().tail<3>().array() += kRate * kRate;
+  return moved.dot(covariance.ldlt().solve(moved)) <= kChi2;
 }
 
 }  // namespace evit

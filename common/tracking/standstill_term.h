@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "common/imu/imu_sample.h"
 #include "common/tracking/state.h"
 
 namespace evit {
@@ -25,11 +24,9 @@ class StandstillTerm {
   double position_weight_, rotation_weight_;
 };
 
-/// Whether a body whose IMU is steady (`reading`: its mean, biases included; see Steadiness) may stand still,
-/// as far as its state is known (`information`): velocity, rate less the gyro's bias, and specific force less
-/// gravity (`gravity`, m/s^2 along the map's z) and the accelerometer's bias must be zero. A steady IMU alone
-/// does not tell a standstill from even motion, or from a gentle start.
-bool MayStandStill(const BodyState& state, const Matrix15d& information, const ImuSample& reading,
-                   double gravity);
+/// Whether a body whose IMU is steady (`steady_rate`: mean rate, rad/s, bias included; see Steadiness) may
+/// stand still: velocity and rate less bias must be zero as far as they are known (`information` of `state`).
+/// A steady IMU alone does not tell a standstill from even motion.
+bool MayStandStill(const BodyState& state, const Matrix15d& information, const Eigen::Vector3d& steady_rate);
 
 }  // namespace evit

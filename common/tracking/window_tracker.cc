@@ -38,6 +38,7 @@ void WindowTracker::Start(std::deque<WindowNode> nodes, const StatePrior& prior)
   const Utime t = window_.nodes().back().t;
   coasted_ = 0;
   steadiness_ = Steadiness(rig_.imu_noise);
+  started_gently_ = false;
   probation_.Begin(t);
   rivals_.Start(t);
   SetUncertainty(window_.nodes().back());
@@ -68,6 +69,7 @@ void WindowTracker::Start(Utime t, const BodyState& state, const Matrix15d& info
   node.t = t;
   coasted_ = 0;
   steadiness_ = Steadiness(rig_.imu_noise);
+  started_gently_ = false;
   probation_.Skip();
   rivals_.Start(t);
   node.state = state;
@@ -133,6 +135,7 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
   const bool seen = newest.points.size() > 0;
   if (result.coasting.empty()) {
     coasted_ = 0;
+    started_gently_ = false;
     SetUncertainty(newest);
   } else {
     // A surface that the map does not lie on would only pull the pose away.
@@ -196,7 +199,7 @@ Utime WindowTracker::Interval() const {
 }
 
 // Whether the body has stood still since the keyframe before, by the IMU alone: its events do not count.
-bool WindowTracker::StandsStill(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) const {
+bool WindowTracker::StandsStill(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) {
   // A pose that would soon be LOST, or that a start has not confirmed, must not be kept for as long as the
   // body stands.
   constexpr double kKnown = 1. / 3;  // of the largest standard deviation of the position
@@ -204,11 +207,17 @@ bool WindowTracker::StandsStill(const KeyframeInput& keyframe, const Eigen::Vect
   const std::optional<ImuSample> reading = steadiness_.SteadyReading(keyframe.imu.front().t);
   if (!reading) return false;
   const Matrix15d information = window_.NewestInformation();
-  if (!MayStandStill(state(), information, *reading, rig_.gravity)) return false;
+  if (started_gently_ || !MayStandStill(state(), information, reading->gyro)) return false;
   const std::deque<WindowNode>& nodes = window_.nodes();
-  if (nodes.size() > 1 && nodes[nodes.size() - 2].stood_still) return true;
+  if (nodes.size() > 1 && nodes[nodes.size() - 2].stood_still) {
+    // Nothing but events that fit tells how fast it is by now.
+    started_gently_ = gentle_start_.Seen(reading->accel, ToSeconds(Interval()));
+    return !started_gently_;
+  }
   const Matrix6d covariance = uncertainty_.Covariance(WindowCovariance(information), state().velocity, rate);
-  return PositionSigma(covariance) <= kKnown * options_.failure.max_position_sigma_m;
+  if (PositionSigma(covariance) > kKnown * options_.failure.max_position_sigma_m) return false;
+  gentle_start_.Begin(reading->accel);
+  return true;
 }
 
 // From time to time, looks for a pose that explains the events better than the newest keyframe's; returned

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/geometry/rig.h"
+#include "common/imu/gentle_start.h"
 #include "common/imu/steadiness.h"
 #include "common/tracking/keyframe_input.h"
 #include "common/tracking/point_selector.h"
@@ -65,7 +66,7 @@ class WindowTracker {
   std::string WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality,
                        double significance) const;
   Utime Interval() const;
-  bool StandsStill(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) const;
+  bool StandsStill(const KeyframeInput& keyframe, const Eigen::Vector3d& rate);
   std::optional<SE3> SearchRival(const KeyframeInput& keyframe, const Eigen::Vector3d& rate, bool coasting);
   std::string WhyLost(const Result& result, const Matrix6d& covariance) const;
 
@@ -78,6 +79,8 @@ class WindowTracker {
   RivalWatch rivals_;
   StartProbation probation_;
   Steadiness steadiness_;
+  GentleStart gentle_start_;
+  bool started_gently_ = false;  // from a standstill, and no events have fitted since
   Utime coasted_ = 0;  // us: for how long the IMU alone has carried the pose, since events fitted last
 };
 

@@ -126,7 +126,7 @@ TEST_F(EvenMotion, AGentleStartEndsAStandstill) {
   for (int k = 0; k < 60 && result.failure.empty(); ++k, speed += 0.05 * 0.09)
     result = Step(0, Eigen::Vector3d(0, 0.09, 0));
   EXPECT_EQ(result.failure.substr(0, 13), "no events for");
-  EXPECT_LT(speed, 0.1);
+  EXPECT_LT(speed, 0.2);  // of these the last 0.3 s are coasting
 }
 
 TEST_F(EvenMotion, EvenMotionIsNoStandstill) {
