@@ -161,6 +161,7 @@ TEST(DoctorTest, LostEventsAreNoOffsetOfClocks) {
 // Each sample counts once, however many of its axes are cut off.
 TEST(DoctorTest, TimeAtTheLimitIsAtMostAllOfIt) {
   std::vector<ImuSample> samples;
+  samples.reserve(600);
   for (int k = 0; k < 600; ++k) samples.push_back({Utime{5000} * k, {4, 4, 4}, {0, 0, 9.81}});
   for (const Finding& f : diagnosis::CheckImu(samples, GoodSample().rig)) {
     if (f.check == "imu-saturation") {
@@ -197,6 +198,7 @@ TEST(DoctorTest, AHotPixelDoesNotMakeItsNeighboursDead) {
 TEST(DoctorTest, ShakingIsNoOtherUnit) {
   for (const double scale : {1.0, 1.4}) {
     std::vector<ImuSample> samples;
+    samples.reserve(600);
     for (int k = 0; k < 600; ++k)
       samples.push_back(
           {Utime{5000} * k, {0, 0, 0.1}, scale * Eigen::Vector3d(20 * std::sin(0.22 * k), 0, 9.81)});
