@@ -6,7 +6,9 @@ namespace evit {
 
 SurfaceField::SurfaceField(const cv::Mat& surface, int levels) {
   pyramid_.reserve(levels);
-  pyramid_.push_back(surface);
+  // An image that only points at somebody's memory has no owner, and might not live as long.
+  const bool has_owner = surface.u != nullptr;
+  pyramid_.push_back(has_owner ? surface : surface.clone());
   for (int l = 1; l < levels; ++l) {
     cv::Mat half;
     cv::pyrDown(pyramid_.back(), half);  // its pixel (i, j) lies on (2i, 2j)

@@ -16,7 +16,8 @@ namespace evit {
 /// surface's own blur dwarfs.
 class SurfaceField {
  public:
-  /// `surface`: CV_8UC1, shared: it must not change. `levels` >= 1: level l is 2^l times smaller.
+  /// `surface`: CV_8UC1, shared: it must not change. One that only points at somebody's memory is copied.
+  /// `levels` >= 1: level l is 2^l times smaller.
   SurfaceField(const cv::Mat& surface, int levels);
 
   int levels() const { return static_cast<int>(pyramid_.size()); }

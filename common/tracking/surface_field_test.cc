@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 namespace evit {
 namespace {
@@ -50,6 +52,16 @@ TEST(SurfaceField, LinearRampIsReproduced) {
   EXPECT_NEAR(s.value, 2 * 30.3 + 20.8, 1e-3);
   EXPECT_NEAR(s.gx, 2, 1e-4);
   EXPECT_NEAR(s.gy, 1, 1e-4);
+}
+
+// As in a program that has each surface in a buffer of its own.
+TEST(SurfaceField, OutlivesAnImageWithoutAnOwner) {
+  const cv::Mat surface = RandomSurface();
+  std::vector<std::uint8_t> buffer(surface.data, surface.data + surface.total());
+  const SurfaceField owned(surface, 1);
+  const SurfaceField field(cv::Mat(surface.rows, surface.cols, CV_8UC1, buffer.data()), 1);
+  std::fill(buffer.begin(), buffer.end(), std::uint8_t{0});
+  EXPECT_EQ(field.At(0, 30.3, 20.8).value, owned.At(0, 30.3, 20.8).value);
 }
 
 TEST(SurfaceField, OutsideItDoesNotPull) {
