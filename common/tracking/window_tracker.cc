@@ -36,12 +36,16 @@ void WindowTracker::Start(std::deque<WindowNode> nodes, const StatePrior& prior)
   window_.Start(std::move(nodes), prior);
   window_.Solve();
   const Utime t = window_.nodes().back().t;
-  coasted_ = 0;
-  steadiness_ = Steadiness(rig_.imu_noise);
-  started_gently_ = false;
+  ForgetMotion();
   probation_.Begin(t);
   rivals_.Start(t);
   SetUncertainty(window_.nodes().back());
+}
+
+void WindowTracker::ForgetMotion() {
+  coasted_ = 0;
+  steadiness_ = Steadiness(rig_.imu_noise);
+  started_gently_ = false;
 }
 
 void WindowTracker::SetUncertainty(const WindowNode& newest) {
@@ -67,9 +71,7 @@ Utime WindowTracker::MeanInterval() const {
 void WindowTracker::Start(Utime t, const BodyState& state, const Matrix15d& information) {
   WindowNode node;
   node.t = t;
-  coasted_ = 0;
-  steadiness_ = Steadiness(rig_.imu_noise);
-  started_gently_ = false;
+  ForgetMotion();
   probation_.Skip();
   rivals_.Start(t);
   node.state = state;
@@ -203,11 +205,11 @@ bool WindowTracker::StandsStill(const KeyframeInput& keyframe, const Eigen::Vect
   // A pose that would soon be LOST, or that a start has not confirmed, must not be kept for as long as the
   // body stands.
   constexpr double kKnown = 1. / 3;  // of the largest standard deviation of the position
-  if (!probation_.Passed() || keyframe.imu.size() < 2) return false;
+  if (!probation_.Passed() || started_gently_ || keyframe.imu.size() < 2) return false;
   const std::optional<ImuSample> reading = steadiness_.SteadyReading(keyframe.imu.front().t);
   if (!reading) return false;
   const Matrix15d information = window_.NewestInformation();
-  if (started_gently_ || !MayStandStill(state(), information, reading->gyro)) return false;
+  if (!MayStandStill(state(), information, reading->gyro)) return false;
   const std::deque<WindowNode>& nodes = window_.nodes();
   if (nodes.size() > 1 && nodes[nodes.size() - 2].stood_still) {
     // Nothing but events that fit tells how fast it is by now.

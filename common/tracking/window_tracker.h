@@ -61,6 +61,7 @@ class WindowTracker {
   const std::deque<WindowNode>& nodes() const { return window_.nodes(); }
 
  private:
+  void ForgetMotion();  // before a start: what later keyframes may not rely on
   void SetUncertainty(const WindowNode& newest);
   WindowNode PredictedNode(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) const;
   std::string WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality,
