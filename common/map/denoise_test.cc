@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "common/map/map_file.h"
+
 namespace evit {
 namespace {
 
@@ -37,46 +39,63 @@ double ErrorAcross(const PointMap& map, const std::vector<Eigen::Vector3f>& trut
   return std::sqrt(sum / static_cast<double>(map.points.size()));
 }
 
+constexpr DenoiseSettings kSettings{0.02};  // m
+
 TEST(Denoise, MovesPointsOntoTheEdgesTheyComeFrom) {
   std::vector<Eigen::Vector3f> truth;
   PointMap map = NoisyEdges(0.003, 0.001, &truth);
   const double before = ErrorAcross(map, truth);
-  const DenoiseSummary summary = Denoise({}, &map);
+  EXPECT_EQ(Denoise(kSettings, &map), truth.size());
   ASSERT_EQ(map.points.size(), truth.size());
-  EXPECT_EQ(summary.n_moved, truth.size());
   EXPECT_LT(ErrorAcross(map, truth), 0.4 * before);
 }
 
 TEST(Denoise, LeavesCleanEdgesWhereTheyAre) {
   std::vector<Eigen::Vector3f> truth;
   PointMap map = NoisyEdges(0, 0.002, &truth);
-  Denoise({}, &map);
+  Denoise(kSettings, &map);
   EXPECT_LT(ErrorAcross(map, truth), 1e-5);
 }
 
-TEST(Denoise, DropsLonelyPointsOfADenseMapOnly) {
+TEST(Denoise, LeavesLonelyPointsWhereTheyAre) {
   std::vector<Eigen::Vector3f> truth;
-  PointMap dense = NoisyEdges(0.001, 0.001, &truth);
-  dense.points.emplace_back(0, 0, 0);
-  EXPECT_EQ(Denoise({}, &dense).n_dropped, 1U);
-  EXPECT_EQ(dense.points.size(), truth.size());
-
-  truth.clear();
-  PointMap sparse = NoisyEdges(0.001, 0.02, &truth);
-  const std::vector<Eigen::Vector3f> before = sparse.points;
-  const DenoiseSummary summary = Denoise({}, &sparse);
-  EXPECT_EQ(summary.n_dropped, 0U);
-  EXPECT_EQ(sparse.points.size(), before.size());
+  PointMap map = NoisyEdges(0.001, 0.001, &truth);
+  map.points.emplace_back(0, 0, 0);
+  EXPECT_EQ(Denoise(kSettings, &map), truth.size());
+  EXPECT_EQ(map.points.back(), Eigen::Vector3f(0, 0, 0));
 }
 
-TEST(Denoise, LeavesAMapThatKnowsItsSigmasAsItIs) {
+// Two edges 2 cm apart, each point less than that from the next: what a camera sees of a book's back.
+TEST(Denoise, ARadiusThatFollowsTheSpacingDoesNotMergeNeighbouringEdges) {
+  std::mt19937 random(7);
+  std::normal_distribution<float> gauss(0, 0.001F);
+  PointMap map;
+  for (int k = 0; k < 500; ++k) {
+    for (const float y : {0.F, 0.02F})
+      map.points.emplace_back(0.005F * static_cast<float>(k), y + gauss(random), gauss(random));
+  }
+  const double spacing = Summarize(map).median_spacing;
+  ASSERT_NEAR(spacing, 0.005, 0.001);
+  const auto drawn_together = [&map](double radius) {
+    PointMap moved = map;
+    Denoise({radius}, &moved);
+    double sum = 0;
+    for (std::size_t k = 0; k < moved.points.size(); k += 2)
+      sum += 0.02 - (moved.points[k + 1].y() - moved.points[k].y());
+    return sum / (0.5 * static_cast<double>(moved.points.size()));
+  };
+  EXPECT_LT(std::abs(drawn_together(DenoiseSettingsFor(map, spacing).radius)), 2e-4);
+  EXPECT_GT(drawn_together(0.03), 1e-3);
+}
+
+TEST(Denoise, RadiusFollowsTheSpacingWithinBounds) {
   std::vector<Eigen::Vector3f> truth;
   PointMap map = NoisyEdges(0.003, 0.001, &truth);
-  EXPECT_GT(DenoiseSettingsFor(map).radius, 0);
-  map.attributes.resize(map.points.size());
-  const std::vector<Eigen::Vector3f> before = map.points;
-  EXPECT_EQ(Denoise(DenoiseSettingsFor(map), &map).n_moved, 0U);
-  EXPECT_EQ(map.points, before);
+  EXPECT_DOUBLE_EQ(DenoiseSettingsFor(map, 0.006).radius, 0.015);
+  EXPECT_DOUBLE_EQ(DenoiseSettingsFor(map, 0).radius, 0.01);
+  EXPECT_DOUBLE_EQ(DenoiseSettingsFor(map, 0.3).radius, 0.04);
+  map.attributes.resize(map.points.size());  // it knows its sigmas
+  EXPECT_EQ(DenoiseSettingsFor(map, 0.006).radius, 0);
 }
 
 TEST(Denoise, CrowdsAndFarPointsDoNotHoldItUp) {
@@ -85,9 +104,8 @@ TEST(Denoise, CrowdsAndFarPointsDoNotHoldItUp) {
   PointMap map;
   for (int i = 0; i < 100'000; ++i) map.points.emplace_back(gauss(random), gauss(random), gauss(random));
   map.points.emplace_back(1e30F, -1e30F, 1e9F);
-  const DenoiseSummary summary = Denoise({}, &map);  // minutes where each point asks each other
-  EXPECT_EQ(summary.n_dropped, 1U);
-  EXPECT_EQ(map.points.size(), 100'000U);
+  EXPECT_EQ(Denoise(kSettings, &map), 100'000U);  // minutes where each point asks each other
+  EXPECT_EQ(map.points.back(), Eigen::Vector3f(1e30F, -1e30F, 1e9F));
 }
 
 TEST(Denoise, StraysThatShareACellDoNotSpoilEachOther) {
@@ -95,17 +113,15 @@ TEST(Denoise, StraysThatShareACellDoNotSpoilEachOther) {
   for (int k = 0; k < 8; ++k) map.points.emplace_back(1e30F, 0, 0);
   map.points.emplace_back(3e38F, 0, 0);
   const std::vector<Eigen::Vector3f> before = map.points;
-  EXPECT_EQ(Denoise({}, &map).n_moved, 8U);
+  EXPECT_EQ(Denoise(kSettings, &map), 8U);
   EXPECT_EQ(map.points, before);
 }
 
 TEST(Denoise, EmptyMapsAndNoRadiusAreFine) {
   PointMap map;
-  EXPECT_EQ(Denoise({}, &map).n_moved, 0U);
+  EXPECT_EQ(Denoise(kSettings, &map), 0U);
   map.points.emplace_back(1, 2, 3);
-  DenoiseSettings off;
-  off.radius = 0;
-  EXPECT_EQ(Denoise(off, &map).n_moved, 0U);
+  EXPECT_EQ(Denoise({}, &map), 0U);
   EXPECT_EQ(map.points.size(), 1U);
 }
 

@@ -73,7 +73,8 @@ int Track(char** arguments) {
   const EventArray events = ReadEvents(arguments[1]);
   const std::vector<ImuSample> imu = ReadImu(arguments[2]);
   PointMap points = LoadMap(arguments[3]).map;
-  Denoise(DenoiseSettingsFor(points), &points);  // as map_server does; leaves maps of `evit map build` alone
+  // As map_server does; leaves maps of `evit map build` alone.
+  Denoise(DenoiseSettingsFor(points, Summarize(points).median_spacing), &points);
   const MapIndex map(std::move(points));
   SE3 start;
   std::istringstream(arguments[4]) >> start.p.x() >> start.p.y() >> start.p.z() >> start.q.x() >>

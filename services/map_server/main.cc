@@ -10,13 +10,13 @@
 namespace {
 
 std::string Describe(const evit::LoadedMap& loaded, const evit::MapSummary& summary,
-                     const evit::DenoiseSummary& denoised) {
+                     const evit::DenoiseSettings& denoise, std::size_t n_moved) {
   char text[240];
   std::snprintf(text, sizeof text,
-                "%zu points (%s), %.1f x %.1f x %.1f m, spacing %.3f m; denoised: %zu moved, %zu left out",
+                "%zu points (%s), %.1f x %.1f x %.1f m, spacing %.4f m; thinned within %.4f m: %zu moved",
                 summary.n_points, loaded.format.c_str(), summary.max.x() - summary.min.x(),
                 summary.max.y() - summary.min.y(), summary.max.z() - summary.min.z(), summary.median_spacing,
-                denoised.n_moved, denoised.n_dropped);
+                denoise.radius, n_moved);
   return text;
 }
 
@@ -30,8 +30,9 @@ int Main(int argc, char** argv) {
   line.Add("--photometric-map", &photometric_path, "PLY with intensities (evit map photometric), for EVPT");
   double radius = -1;
   line.Add("--denoise-radius", &radius,
-           "Points move onto the line through their neighbours within this, m; 0: as read. Left out: 0.02, "
-           "and as read where the map has sigmas (evit map build thins its maps itself)")
+           "Points move onto the line through their neighbours within this, m; 0: as read. Left out: 2.5 "
+           "times "
+           "the points' spacing, and as read where the map has sigmas (evit map build thins its maps itself)")
       .Range(0.0, 0.2);
   bool places = false;
   line.AddFlag(
@@ -47,9 +48,9 @@ int Main(int argc, char** argv) {
     loaded = evit::LoadMap(path);
     const evit::MapSummary summary = evit::Summarize(loaded.map);
     evit::RequireMetres(summary, path);
-    evit::DenoiseSettings denoise = evit::DenoiseSettingsFor(loaded.map);
+    evit::DenoiseSettings denoise = evit::DenoiseSettingsFor(loaded.map, summary.median_spacing);
     if (radius >= 0) denoise.radius = radius;
-    description = Describe(loaded, summary, evit::Denoise(denoise, &loaded.map));
+    description = Describe(loaded, summary, denoise, evit::Denoise(denoise, &loaded.map));
   }
   std::optional<evit::PhotometricMap> photometric;
   if (!photometric_path.empty()) {

@@ -22,7 +22,7 @@ class MapServerBusTest : public ::testing::Test {
  protected:
   MapServerBusTest() : map_(test::Room(200'000, {3, 2.5F, 1.4F}, 1)), file_("", "room.pcd") {
     WritePcd(file_.path(), map_);
-    Denoise({}, &map_);  // as the server does
+    Denoise(DenoiseSettingsFor(map_, Summarize(map_).median_spacing), &map_);  // as the server does
   }
   static std::vector<std::string> Command(const std::string& map) {
     return {kProgram, "--map", map, "--lcm-url", kUrl};

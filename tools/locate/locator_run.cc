@@ -81,8 +81,10 @@ class Session {
 
 PreparedMap PrepareMap(const std::string& path, int threads) {
   LoadedMap loaded = LoadMap(path);
-  RequireMetres(Summarize(loaded.map), path);
-  Denoise(DenoiseSettingsFor(loaded.map), &loaded.map);  // as map_server does: they share the index
+  const MapSummary summary = Summarize(loaded.map);
+  RequireMetres(summary, path);
+  // As map_server does: they share the index.
+  Denoise(DenoiseSettingsFor(loaded.map, summary.median_spacing), &loaded.map);
   PreparedMap prepared;
   PlaceIndexOptions options;
   options.threads = threads;
