@@ -8,44 +8,24 @@ namespace {
 
 constexpr double kTiny = 1e-12;  // squared brightness change of a twist that is as good as none
 
-// Event image at a point, and its slope over the tangent (dp, dtheta).
-struct Seen {
-  bool in_image = false;
-  double value = 0;
-  Vector6d slope = Vector6d::Zero();
-};
+AlignmentSettings SettingsOf(const PhotometricScene& scene) {
+  AlignmentSettings settings;
+  settings.T_camera_body = scene.T_camera_body;
+  settings.set_camera(scene.camera);
+  return settings;
+}
 
-class Projector {
- public:
-  Projector(const PhotometricScene& scene, const SE3& T_map_body)
-      : scene_(scene),
-        R_body_map_(T_map_body.R().transpose()),
-        R_camera_body_(scene.T_camera_body.R()),
-        p_(T_map_body.p) {}
-
-  Seen Look(const Eigen::Vector3d& point, bool derivatives) const {
-    Seen seen;
-    const Eigen::Vector3d x_body = R_body_map_ * (point - p_);
-    const Eigen::Vector3d x_camera = R_camera_body_ * x_body + scene_.T_camera_body.p;
-    Eigen::Vector2d pixel;
-    Eigen::Matrix<double, 2, 3> jacobian;
-    if (!scene_.camera.Project(x_camera, &pixel, derivatives ? &jacobian : nullptr)) return seen;
-    seen.in_image = scene_.camera.Contains(pixel);
-    const EventImage::Sample s = scene_.events->At(scene_.level, pixel.x(), pixel.y());
-    seen.value = s.value;
-    if (!derivatives) return seen;
-    const Eigen::Vector3d g =
-        R_camera_body_.transpose() * (jacobian.transpose() * Eigen::Vector2d(s.gx, s.gy));
-    seen.slope.head<3>() = -(R_body_map_.transpose() * g);
-    seen.slope.tail<3>() = g.cross(x_body);
-    return seen;
+PhotometricMotion MotionOf(const PhotometricScene& scene, const Twist& twist) {
+  const Vector6d pull = scene.change * twist;
+  PhotometricMotion motion{};
+  for (std::size_t i = 0; i < 6; ++i) {
+    motion.twist[i] = static_cast<float>(twist[static_cast<int>(i)]);
+    motion.pull[i] = static_cast<float>(pull[static_cast<int>(i)]);
   }
-
- private:
-  const PhotometricScene& scene_;
-  Eigen::Matrix3d R_body_map_, R_camera_body_;
-  Eigen::Vector3d p_;
-};
+  motion.per_event = static_cast<float>(1 / scene.event_norm);
+  motion.per_size = static_cast<float>(1 / std::sqrt(twist.dot(pull) + kTiny));
+  return motion;
+}
 
 }  // namespace
 
@@ -56,38 +36,40 @@ Vector6d PhotometricScene::Change(const GradientPoint& g) const {
 }
 
 void PhotometricScene::Prepare() {
+  seen_by = SettingsOf(*this);
   change.setZero();
-  for (const GradientPoint& g : points) {
-    const Vector6d a = Change(g);
+  std::vector<Eigen::Vector3f> places;
+  places.reserve(points.size());
+  for (std::vector<float>& c : arrays.change) c.assign(points.size() + kLanes, 0);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Vector6d a = Change(points[k]);
     change += a * a.transpose();
+    for (std::size_t i = 0; i < 6; ++i) arrays.change[i][k] = static_cast<float>(a[static_cast<int>(i)]);
+    places.emplace_back(points[k].point.cast<float>());
   }
   if (!points.empty()) change /= static_cast<double>(points.size());
+  arrays.place = AlignmentPoints(places);
 }
 
 PhotometricTerm EvaluatePhotometric(const PhotometricScene& scene, const SE3& T_map_body, const Twist& twist,
                                     bool derivatives) {
   PhotometricTerm term;
-  const Projector projector(scene, T_map_body);
-  const Vector6d pull = scene.change * twist;
-  const double size = std::sqrt(twist.dot(pull) + kTiny), inverse = 1 / size;
-  const double per_event = 1 / scene.event_norm;
-  const double c2 = scene.robust_scale * scene.robust_scale;
-  Eigen::Matrix<double, 12, 1> J;
-  for (const GradientPoint& g : scene.points) {
-    const Seen seen = projector.Look(g.point, derivatives);
-    const Vector6d a = scene.Change(g);
-    const double predicted = a.dot(twist) * inverse;
-    const double r = seen.value * per_event - predicted;
-    const double s = r * r / c2;
-    term.cost += 0.5 * scene.weight * c2 * std::log1p(s);
-    if (!derivatives) continue;
-    J.head<6>() = per_event * seen.slope;
-    J.tail<6>() = (predicted * inverse * inverse) * pull - inverse * a;
-    const double w = scene.weight / (1 + s);
-    term.gradient += w * r * J;
-    term.hessian.selfadjointView<Eigen::Lower>().rankUpdate(J, w);
+  PhotometricSums sums;
+  const PhotometricBatch batch(scene.seen_by, scene.arrays, T_map_body, *scene.events, scene.level);
+  const LaneKernel kernel({RobustKernel::Kind::kCauchy, scene.robust_scale});
+  SumPhotometric(batch, scene.arrays, MotionOf(scene, twist), kernel, derivatives, &sums);
+  term.cost = 0.5 * scene.weight * sums.rho;
+  if (!derivatives) return term;
+  const float(*cell)[kLanes] = sums.hessian;
+  for (int i = 0; i < 12; ++i) {
+    term.gradient[i] = scene.weight * SumLanes(sums.gradient[i]);
+    for (int j = i; j < 12; ++j) term.hessian(i, j) = term.hessian(j, i) = scene.weight * SumLanes(*cell++);
   }
-  term.hessian.triangularView<Eigen::StrictlyUpper>() = term.hessian.transpose();
+  // Positions: from the body frame to the map's.
+  const Eigen::Matrix3d R = T_map_body.R();
+  term.gradient.head<3>() = (R * term.gradient.head<3>()).eval();
+  term.hessian.topRows<3>() = (R * term.hessian.topRows<3>()).eval();
+  term.hessian.leftCols<3>() = (term.hessian.leftCols<3>() * R.transpose()).eval();
   return term;
 }
 
@@ -96,16 +78,11 @@ TwistFit FitTwist(const PhotometricScene& scene, const SE3& T_map_body, double s
   TwistFit fit;
   fit.twist = prior;
   if (scene.points.empty()) return fit;
-  const Projector projector(scene, T_map_body);
-  Vector6d b = Vector6d::Zero();
-  double sum = 0;
-  for (const GradientPoint& g : scene.points) {
-    const double value = projector.Look(g.point, false).value;
-    b += value * seconds * scene.Change(g);
-    sum += value * value;
-  }
+  const EventSums sums = SumEvents(
+      PhotometricBatch(scene.seen_by, scene.arrays, T_map_body, *scene.events, scene.level), scene.arrays);
+  const Vector6d b = seconds * Eigen::Map<const Vector6d>(sums.by_change.data());
   const auto n = static_cast<double>(scene.points.size());
-  fit.event_rms = std::sqrt(sum / n);
+  fit.event_rms = std::sqrt(sums.squared / n);
   if (!(fit.event_rms > 0)) return fit;
   const double per_point = scene.weight / (fit.event_rms * fit.event_rms);
   const Matrix6d information = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
@@ -117,17 +94,12 @@ TwistFit FitTwist(const PhotometricScene& scene, const SE3& T_map_body, double s
 PhotometricQuality MeasurePhotometric(const PhotometricScene& scene, const SE3& T_map_body,
                                       const Twist& twist) {
   PhotometricQuality quality;
-  const Projector projector(scene, T_map_body);
-  double ee = 0, ed = 0, dd = 0;
-  for (const GradientPoint& g : scene.points) {
-    const Seen seen = projector.Look(g.point, false);
-    const double d = scene.Change(g).dot(twist);
-    ee += seen.value * seen.value;
-    ed += seen.value * d;
-    dd += d * d;
-    if (seen.in_image) ++quality.n_points;
-  }
-  if (ee > 0 && dd > 0) quality.correlation = ed / std::sqrt(ee * dd);
+  const EventSums sums = SumEvents(
+      PhotometricBatch(scene.seen_by, scene.arrays, T_map_body, *scene.events, scene.level), scene.arrays);
+  const double both = Eigen::Map<const Vector6d>(sums.by_change.data()).dot(twist);
+  const double predicted = static_cast<double>(scene.points.size()) * twist.dot(scene.change * twist);
+  quality.n_points = sums.in_image;
+  if (sums.squared > 0 && predicted > 0) quality.correlation = both / std::sqrt(sums.squared * predicted);
   return quality;
 }
 

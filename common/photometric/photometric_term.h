@@ -7,6 +7,7 @@
 #include "common/geometry/se3.h"
 #include "common/photometric/event_image.h"
 #include "common/photometric/gradient_points.h"
+#include "common/photometric/photometric_lanes.h"
 
 namespace evit {
 
@@ -28,7 +29,11 @@ struct PhotometricScene {
   Matrix6d change =
       Matrix6d::Zero();  // mean of a a^T over the points, a: brightness change per unit of twist
 
-  /// Fills `change`. After points and origin are set.
+  // The same for loops over lanes.
+  AlignmentSettings seen_by;
+  PhotometricPoints arrays;
+
+  /// Fills `change` and what follows it. After points, origin, camera and its pose are set.
   void Prepare();
   /// d(brightness)/dt at the pixel that sees the point, per unit of twist: the change predicted is a . twist.
   Vector6d Change(const GradientPoint& g) const;

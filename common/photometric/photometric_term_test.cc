@@ -71,7 +71,7 @@ TEST(PhotometricTerm, GradientIsThatOfTheCost) {
         const PhotometricTerm term = EvaluatePhotometric(frame.scene, pose, twist, true);
         EXPECT_EQ(term.cost, EvaluatePhotometric(frame.scene, pose, twist, false).cost);
         for (int k = 0; k < 12; ++k) {
-          const double h = 1e-5;  // images are floats
+          const double h = 5e-4;  // points and images are floats
           const auto cost = [&](double s) {
             const auto d = Step(k, s * h);
             return EvaluatePhotometric(frame.scene, pose.Plus(d.head<6>()), twist + d.tail<6>(), false).cost;
@@ -80,7 +80,7 @@ TEST(PhotometricTerm, GradientIsThatOfTheCost) {
           EXPECT_NEAR(term.gradient[k], numeric, 2e-3 * std::abs(numeric) + 0.03) << k << " level " << level;
         }
         EXPECT_GE(term.hessian.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(),
-                  -1e-9 * term.hessian.norm());
+                  -1e-6 * term.hessian.norm());
       }
     }
   }

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
-#include "common/map/photometric_map.h"
+#include "common/photometric/photometric_cells.h"
 #include "common/photometric/photometric_view.h"
+#include "common/photometric/splat_passes.h"
 
 namespace evit {
 
@@ -16,39 +17,31 @@ namespace evit {
 /// its buffers are reused.
 class ViewRenderer {
  public:
-  /// Intensities get `dark` added before the logarithm, so that black is not infinitely dark.
-  explicit ViewRenderer(const PhotometricMap& map, double dark = 0.012);
+  /// Intensities get `dark` added before the logarithm, so that black is not infinitely dark. However many
+  /// `threads` there are, views are the same to the bit.
+  explicit ViewRenderer(const PhotometricMap& map, int threads = 1, double dark = kDark)
+      : dark_(static_cast<float>(dark)), threads_(threads), cells_(map) {}
+  static constexpr double kDark = 0.012;
 
   /// The query's camera must have no distortion.
   void Render(const ViewQuery& query, PhotometricView* view);
 
-  std::size_t size() const { return x_.size(); }
+  std::size_t size() const { return cells_.size(); }
   /// m: side of the square of surface that a point stands for, median.
-  float spacing() const { return spacing_; }
+  float spacing() const { return cells_.spacing(); }
 
  private:
-  struct Cell {
-    Eigen::Vector3f center;
-    float radius;            // m
-    std::size_t begin, end;  // points
-  };
-  struct Splat {
-    float x, y, depth, intensity;  // pixels, m
-  };
-  void Project(const ViewQuery& query);
-  void FillDepth(const Camera& camera);
-  void CloseLeaks(int width, int height);
-  void Blend(const Camera& camera, PhotometricView* view);
+  void CloseLeaks(const PaddedImage& image, Rows rows);
+  void TakeMeans(const PaddedImage& image, Rows rows, PhotometricView* view) const;
   void FillHoles(const Camera& camera, PhotometricView* view);
 
   float dark_;
-  float spacing_ = 0;
-  std::vector<Cell> cells_;
-  std::vector<float> x_, y_, z_, intensity_;  // cell by cell
+  int threads_;
+  PhotometricCells cells_;
 
-  std::vector<Splat> splats_;
-  std::vector<float> depth_, scratch_;          // m; kNothing
-  std::vector<float> weight_, mean_, inverse_;  // sums
+  std::vector<Splats> splats_;          // a part of the map for each thread
+  std::vector<float> depth_, scratch_;  // m
+  SplatSums sums_;
 };
 
 }  // namespace evit

@@ -26,7 +26,7 @@ ViewQuery QueryAt(const SE3& T_map_body) {
 // Against a cast ray for each pixel.
 TEST(ViewRenderer, SeesWhatRaysSee) {
   const test::Room room;
-  ViewRenderer renderer(room.Map(0.01), test::Room::kDark);
+  ViewRenderer renderer(room.Map(0.01), 1, test::Room::kDark);
   EXPECT_NEAR(renderer.spacing(), 0.01, 1e-3);
   for (const SE3& pose : kPoses) {
     const ViewQuery query = QueryAt(pose);
@@ -101,8 +101,8 @@ TEST(ViewRenderer, NothingInViewIsNothing) {
   }
 }
 
-TEST(ViewRenderer, DepthsOutsideTheRangeAreNotSeenAndTheSameQueryGivesTheSameBits) {
-  ViewRenderer renderer(test::Room().Map(0.02));
+TEST(ViewRenderer, DepthsOutsideTheRangeAreNotSeenAndTheSameQueryGivesTheSameBitsOnAnyThreads) {
+  ViewRenderer renderer(test::Room().Map(0.02)), two_threads(test::Room().Map(0.02), 2);
   ViewQuery query = QueryAt({});
   PhotometricView first, second;
   renderer.Render(query, &first);
@@ -112,6 +112,9 @@ TEST(ViewRenderer, DepthsOutsideTheRangeAreNotSeenAndTheSameQueryGivesTheSameBit
   for (const float v : second.inverse_depth) EXPECT_TRUE(v == 0 || v > 0.999 / 2.5);
   query.max_depth = ViewQuery().max_depth;
   renderer.Render(query, &second);
+  EXPECT_EQ(first.log_intensity, second.log_intensity);
+  EXPECT_EQ(first.inverse_depth, second.inverse_depth);
+  two_threads.Render(query, &second);
   EXPECT_EQ(first.log_intensity, second.log_intensity);
   EXPECT_EQ(first.inverse_depth, second.inverse_depth);
 }

@@ -1,7 +1,7 @@
 #include "common/wire/view_wire.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 
 #include "common/wire/geometry_wire.h"
 
@@ -10,6 +10,9 @@ namespace {
 
 constexpr float kPerLog = 4096;
 constexpr double kMost = 65535;  // the largest inverse depth there is
+
+// To the nearest; std::lround is a call for each number.
+int Rounded(float v) { return static_cast<int>(v + (v < 0 ? -0.5F : 0.5F)); }
 
 }  // namespace
 
@@ -38,16 +41,17 @@ map_view_t ToMessage(const PhotometricView& view) {
   m.height = view.query.camera.height;
   m.size = m.width * m.height;
   m.min_depth = view.query.min_depth;
-  m.log_intensity.reserve(view.log_intensity.size());
-  m.inverse_depth.reserve(view.inverse_depth.size());
-  for (const float v : view.log_intensity) {
-    m.log_intensity.push_back(
-        static_cast<std::int16_t>(std::lround(std::clamp(v * kPerLog, -32768.0F, 32767.0F))));
+  m.log_intensity.resize(view.log_intensity.size());
+  m.inverse_depth.resize(view.inverse_depth.size());
+  for (std::size_t k = 0; k < view.log_intensity.size(); ++k) {
+    m.log_intensity[k] =
+        static_cast<std::int16_t>(Rounded(std::clamp(view.log_intensity[k] * kPerLog, -32768.0F, 32767.0F)));
   }
   const auto scale = static_cast<float>(kMost * view.query.min_depth);
-  for (const float v : view.inverse_depth) {
+  for (std::size_t k = 0; k < view.inverse_depth.size(); ++k) {
+    const float v = view.inverse_depth[k];
     const float units = v > 0 ? std::clamp(v * scale, 1.0F, static_cast<float>(kMost)) : 0.0F;
-    m.inverse_depth.push_back(static_cast<std::int16_t>(static_cast<std::uint16_t>(std::lround(units))));
+    m.inverse_depth[k] = static_cast<std::int16_t>(static_cast<std::uint16_t>(Rounded(units)));
   }
   return m;
 }
@@ -55,13 +59,13 @@ map_view_t ToMessage(const PhotometricView& view) {
 PhotometricView FromMessage(const map_view_t& m, const ViewQuery& query) {
   PhotometricView view;
   view.query = query;
-  view.log_intensity.reserve(m.log_intensity.size());
-  view.inverse_depth.reserve(m.inverse_depth.size());
-  for (const std::int16_t v : m.log_intensity) view.log_intensity.push_back(static_cast<float>(v) / kPerLog);
+  view.log_intensity.resize(m.log_intensity.size());
+  view.inverse_depth.resize(m.inverse_depth.size());
+  std::transform(m.log_intensity.begin(), m.log_intensity.end(), view.log_intensity.begin(),
+                 [](std::int16_t v) { return static_cast<float>(v) / kPerLog; });
   const auto unit = static_cast<float>(1 / (kMost * m.min_depth));
-  for (const std::int16_t v : m.inverse_depth) {
-    view.inverse_depth.push_back(unit * static_cast<float>(static_cast<std::uint16_t>(v)));
-  }
+  std::transform(m.inverse_depth.begin(), m.inverse_depth.end(), view.inverse_depth.begin(),
+                 [unit](std::int16_t v) { return unit * static_cast<float>(static_cast<std::uint16_t>(v)); });
   return view;
 }
 

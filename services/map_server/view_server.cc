@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t kMaxQueuedViews = 4;  // views take 10 ms each: old answers help nobody
 constexpr int kMaxPixels = 640 * 512;       // a message of 1.3 MB, and the time to draw it
+// The tracker waits for its view: meanwhile a second processor has nothing to do.
+constexpr int kThreads = 2;
 
 }  // namespace
 
@@ -21,7 +23,7 @@ ViewServer::ViewServer(Bus* bus, const Channels& channels, StatusReporter* statu
       status_(status),
       queries_(status, "VIEW_QUERY"),
       dropped_(&status->Counter("VIEW_QUERY.dropped")),
-      renderer_(map) {
+      renderer_(map, kThreads) {
   bus_->Subscribe(channels.view_query, [this](const std::string&, const std::uint8_t* data,
                                               std::size_t size) { OnQuery(data, size); });
   status_->Counter("photometric_map.points") = static_cast<std::int64_t>(renderer_.size());

@@ -1,0 +1,145 @@
+#include "common/photometric/photometric_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace evit {
+namespace {
+
+constexpr float kCell = 0.25F;  // m
+
+// From the number of points around some 100 of them. Distances to the nearest would be far too small: points
+// of neighbouring voxels may lie close together.
+float SpacingOf(const std::vector<Eigen::Vector3f>& points) {
+  std::vector<float> spacings;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / 100);
+  for (float radius = 0.05F; radius < 10; radius *= 4) {
+    spacings.clear();
+    for (std::size_t k = 0; k < points.size(); k += stride) {
+      int around = 0;
+      for (const Eigen::Vector3f& p : points)
+        around += (p - points[k]).squaredNorm() < radius * radius ? 1 : 0;
+      spacings.push_back(radius * std::sqrt(3.1416F / static_cast<float>(around)));
+    }
+    const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+    std::nth_element(spacings.begin(), middle, spacings.end());
+    if (*middle < 0.5F * radius) return *middle;  // enough points for a figure
+  }
+  return spacings[spacings.size() / 2];
+}
+
+// Of the cell: x, y and z, 21 bits each, 250 km either way.
+std::uint64_t KeyOf(const Eigen::Vector3f& point) {
+  constexpr std::uint64_t kMiddle = 1U << 20U;
+  std::uint64_t key = 0;
+  for (int k = 0; k < 3; ++k) {
+    const float cell = std::clamp(std::floor(point[k] / kCell), -1e6F, 1e6F);
+    key = (key << 21U) | (kMiddle + static_cast<std::uint64_t>(static_cast<std::int64_t>(cell)));
+  }
+  return key;
+}
+
+// A pinhole without distortion, in single precision.
+struct Pinhole {
+  explicit Pinhole(const ViewQuery& query)
+      : R(query.T_map_camera.Inverse().R().cast<float>()),
+        t(query.T_map_camera.Inverse().p.cast<float>()),
+        fx(static_cast<float>(query.camera.fx)),
+        fy(static_cast<float>(query.camera.fy)),
+        cx(static_cast<float>(query.camera.cx)),
+        cy(static_cast<float>(query.camera.cy)),
+        right(static_cast<float>(query.camera.width)),
+        bottom(static_cast<float>(query.camera.height)),
+        near(static_cast<float>(query.min_depth)),
+        far(static_cast<float>(query.max_depth)),
+        sides{Eigen::Vector3f(fx, 0, cx + 1).normalized(), Eigen::Vector3f(-fx, 0, right - cx).normalized(),
+              Eigen::Vector3f(0, fy, cy + 1).normalized(),
+              Eigen::Vector3f(0, -fy, bottom - cy).normalized()} {}
+
+  // Whether a ball about `center`, map frame, may be in view.
+  bool MaySee(const Eigen::Vector3f& center, float radius) const {
+    const Eigen::Vector3f c = R * center + t;
+    if (c.z() < near - radius || c.z() > far + radius) return false;
+    return std::none_of(sides.begin(), sides.end(),
+                        [&](const Eigen::Vector3f& side) { return side.dot(c) < -radius; });
+  }
+
+  Eigen::Matrix3f R;  // camera from map
+  Eigen::Vector3f t;
+  float fx, fy, cx, cy, right, bottom, near, far;
+  std::array<Eigen::Vector3f, 4> sides;  // of the pyramid in view, inward
+};
+
+EVIT_MULTIVERSION void ProjectCell(const Pinhole& view, const float* x, const float* y, const float* z,
+                                   const float* intensity, std::size_t n, Splats* splats) {
+  alignas(64) float u[kLanes], v[kLanes], depth[kLanes];
+  alignas(64) int in_view[kLanes];
+  const Eigen::Matrix3f& R = view.R;
+  const float r00 = R(0, 0), r01 = R(0, 1), r02 = R(0, 2), r10 = R(1, 0), r11 = R(1, 1), r12 = R(1, 2);
+  const float r20 = R(2, 0), r21 = R(2, 1), r22 = R(2, 2), tx = view.t[0], ty = view.t[1], tz = view.t[2];
+  for (std::size_t k = 0; k < n; k += kLanes) {
+    for (int l = 0; l < kLanes; ++l) {
+      const float a = x[k + l], b = y[k + l], c = z[k + l];
+      const float px = r00 * a + r01 * b + r02 * c + tx;
+      const float py = r10 * a + r11 * b + r12 * c + ty;
+      const float pz = r20 * a + r21 * b + r22 * c + tz;
+      const int ahead =
+          static_cast<int>(pz >= view.near) & static_cast<int>(pz <= view.far) & static_cast<int>(pz > 0);
+      const float inverse = 1 / (ahead != 0 ? pz : 1);
+      u[l] = view.fx * px * inverse + view.cx;
+      v[l] = view.fy * py * inverse + view.cy;
+      depth[l] = pz;
+      in_view[l] = ahead & static_cast<int>(u[l] > -1) & static_cast<int>(v[l] > -1) &
+                   static_cast<int>(u[l] < view.right) & static_cast<int>(v[l] < view.bottom);
+    }
+    const int lanes = n - k < kLanes ? static_cast<int>(n - k) : kLanes;
+    splats->Append(u, v, depth, intensity + k, in_view, lanes);
+  }
+}
+
+}  // namespace
+
+PhotometricCells::PhotometricCells(const PhotometricMap& map) : n_(map.points.size()) {
+  if (n_ == 0) return;
+  spacing_ = SpacingOf(map.points);
+  std::vector<std::pair<std::uint64_t, std::size_t>> order(n_);  // cell and point
+  for (std::size_t k = 0; k < n_; ++k) order[k] = {KeyOf(map.points[k]), k};
+  std::sort(order.begin(), order.end());
+  for (const auto& [key, k] : order) {
+    x_.push_back(map.points[k].x());
+    y_.push_back(map.points[k].y());
+    z_.push_back(map.points[k].z());
+    intensity_.push_back(map.intensities[k]);
+  }
+  for (std::size_t begin = 0; begin < n_;) {
+    std::size_t end = begin;
+    Eigen::Vector3f low(x_[begin], y_[begin], z_[begin]), high = low;
+    for (; end < n_ && order[end].first == order[begin].first; ++end) {
+      const Eigen::Vector3f p(x_[end], y_[end], z_[end]);
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    cells_.push_back({0.5F * (low + high), 0.5F * (high - low).norm(), begin, end});
+    begin = end;
+  }
+  for (std::vector<float>* v : {&x_, &y_, &z_, &intensity_}) v->resize(n_ + kLanes);
+}
+
+void PhotometricCells::Project(const ViewQuery& query, std::size_t part, std::size_t parts,
+                               Splats* splats) const {
+  const Pinhole view(query);
+  splats->Clear();
+  for (const Cell& cell : cells_) {
+    if (cell.begin * parts / n_ != part || !view.MaySee(cell.center, cell.radius)) continue;
+    const std::size_t n = cell.end - cell.begin;
+    splats->Reserve(n);
+    ProjectCell(view, x_.data() + cell.begin, y_.data() + cell.begin, z_.data() + cell.begin,
+                intensity_.data() + cell.begin, n, splats);
+  }
+  splats->Pad();
+}
+
+}  // namespace evit
