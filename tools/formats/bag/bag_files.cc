@@ -26,10 +26,10 @@ BagFiles::BagFiles(const std::vector<std::string>& paths) {
       rosbag::View view(*bags_.back());
       for (const rosbag::ConnectionInfo* c : view.getConnections()) types_[c->topic] = c->datatype;
     } catch (const rosbag::BagUnindexedException&) {
-      throw std::runtime_error(
-          path +
-          ": has no index: it was cut off; copy it again, or run rosbag reindex on it (by itself, "
-          "`evit import FILE` reads what is whole of it)");
+      throw std::runtime_error(path +
+                               ": has no index: it was cut off; copy it again, or run rosbag reindex on it "
+                               "(`evit import FILE ...` "
+                               "reads what is whole of it)");
     } catch (const std::exception& error) {
       throw std::runtime_error(path + ": is not a complete ROS 1 bag (" + error.what() + "); copy it again");
     }

@@ -88,7 +88,7 @@ bool CutBag::Recognises(const std::string& path) {
   return at < left;
 }
 
-CutBag::CutBag(const std::string& path) : path_(path), part_{path, {}} {
+CutBag::CutBag(const std::string& path) : path_(path), part_{path, {}, true} {
   CutBagPass pass(path, nullptr);
   RosMessage message;
   while (pass.Next(&message)) part_.Cover(message.topic, pass.time());

@@ -75,9 +75,16 @@ std::unique_ptr<MessageStore> OpenBags(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (!is_ros1(path)) throw std::runtime_error(path + ": is not a ROS 1 bag, unlike " + paths.front());
   }
-  // Bags that belong together are merged by their indices.
-  if (paths.size() == 1 && CutBag::Recognises(paths.front())) return std::make_unique<CutBag>(paths.front());
-  return std::make_unique<RosbagStore>(paths);
+  if (std::none_of(paths.begin(), paths.end(), CutBag::Recognises))
+    return std::make_unique<RosbagStore>(paths);  // merged by their indices, which a cut one does not have
+  std::vector<std::unique_ptr<MessageStore>> bags;
+  for (const std::string& path : paths) {
+    if (CutBag::Recognises(path))
+      bags.push_back(std::make_unique<CutBag>(path));
+    else
+      bags.push_back(std::make_unique<RosbagStore>(std::vector<std::string>{path}));
+  }
+  return bags.size() == 1 ? std::move(bags.front()) : std::make_unique<BagFolder>(std::move(bags));
 }
 
 }  // namespace

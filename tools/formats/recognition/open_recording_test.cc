@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "tests/helpers/ros_bags.h"
 #include "tests/helpers/temporary_folder.h"
 
 namespace evit::formats {
@@ -104,6 +107,33 @@ TEST(OpenRecording, AChoiceWhereThereIsNoneIsRefused) {
               ThrowsMessage<std::runtime_error>(HasSubstr("--events-topic left")));
   EXPECT_FALSE(HasImuTopics(path));
   EXPECT_FALSE(HasTruthTopics(path));
+}
+
+// Of bags of one recording those that are cut off give what is whole of them; what the others hold is
+// complete.
+TEST(OpenRecording, OfSeveralBagsOneMayBeCutOff) {
+  constexpr Utime kStart = 1'700'000'000'000'000, kMessages = 3000;
+  const TemporaryFolder folder("recognition");
+  const std::string poses = folder.File("poses.bag"), imu = folder.File("imu.bag");
+  {
+    rosbag::Bag of_poses(poses, rosbag::bagmode::Write), of_imu(imu, rosbag::bagmode::Write);
+    of_imu.setChunkThreshold(20'000);
+    for (Utime k = 0; k < kMessages; ++k) {
+      const Utime t = kStart + 1000 * k;
+      Record(&of_poses, "/pose", t, PoseMessage({t, {}}));
+      Record(&of_imu, "/imu", t, ImuMessage({t, {1, 2, 3}, {4, 5, 6}}));
+    }
+  }
+  std::filesystem::resize_file(imu, std::filesystem::file_size(imu) / 2);
+  StreamChoice choice;
+  choice.take_events = false;
+  const ImportStreams streams = OpenRecording({imu, poses}, choice)->Streams();
+  EXPECT_EQ(streams.truth.size(), std::size_t{kMessages});
+  EXPECT_FALSE(streams.dropped_truth.cut_off);
+  EXPECT_LT(streams.imu.size(), std::size_t{kMessages});
+  EXPECT_GT(streams.imu.size(), std::size_t{kMessages / 4});
+  EXPECT_TRUE(streams.dropped_imu.cut_off);
+  EXPECT_NEAR(streams.dropped_imu.lost_share, 0.5, 0.1);
 }
 
 }  // namespace

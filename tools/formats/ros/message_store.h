@@ -30,6 +30,12 @@ class MessagePass {
   virtual bool cut_off() const { return false; }
   /// Of such a file the share that is missing, 0..1; 0: it does not say.
   virtual double lost_share() const { return 0; }
+  struct Loss {
+    bool cut_off = false;
+    double share = 0;  // that is missing
+  };
+  /// The same of a topic alone, where the pass is over several files.
+  virtual Loss LossOf(const std::string& /*topic*/) const { return {cut_off(), lost_share()}; }
 };
 
 struct RosTopic {
@@ -45,6 +51,7 @@ struct TopicSpan {
 struct BagPart {
   std::string file;
   std::map<std::string, TopicSpan> topics;
+  bool cut_off = false;  // it went on longer
 
   /// Widens the topic's span to a message that was recorded at `t`.
   void Cover(const std::string& topic, Utime t) {

@@ -14,13 +14,14 @@ constexpr Utime kMaxOverlap = kMicrosPerSecond / 2;  // of two parts: what was o
 struct FileSpan {
   std::string file;
   TopicSpan span;
+  bool cut_off = false;  // the span's end is not that of the file as it was recorded
 };
 
 std::vector<FileSpan> FilesWith(const std::vector<BagPart>& parts, const std::string& topic) {
   std::vector<FileSpan> files;
   for (const BagPart& part : parts) {
     const auto found = part.topics.find(topic);
-    if (found != part.topics.end()) files.push_back({part.file, found->second});
+    if (found != part.topics.end()) files.push_back({part.file, found->second, part.cut_off});
   }
   std::sort(files.begin(), files.end(), [](const FileSpan& a, const FileSpan& b) {
     return a.span.begin < b.span.begin || (a.span.begin == b.span.begin && a.file < b.file);
@@ -35,7 +36,7 @@ std::string Text(const FileSpan& file) {
 // Two files with the same topic must be parts of one recording.
 void RequireSequel(const FileSpan& a, const FileSpan& b, const std::string& topic) {
   const Utime shorter = std::min(a.span.end - a.span.begin, b.span.end - b.span.begin);
-  const bool hole = b.span.begin - a.span.end > kMaxHole,
+  const bool hole = !a.cut_off && b.span.begin - a.span.end > kMaxHole,
              overlap = a.span.end - b.span.begin > std::min(kMaxOverlap, shorter / 2);
   if (!hole && !overlap) return;
   throw std::runtime_error(

@@ -57,8 +57,9 @@ class RosEvents : public EventSource {
   DropCounts dropped() const override {
     DropCounts dropped = filter_.dropped();
     dropped.unstamped = packets_.unstamped();
-    dropped.cut_off = pass_->cut_off();
-    dropped.lost_share = pass_->lost_share();
+    const MessagePass::Loss loss = pass_->LossOf(topic_.name);
+    dropped.cut_off = loss.cut_off;
+    dropped.lost_share = loss.share;
     return dropped;
   }
 
@@ -144,18 +145,22 @@ void RosRecording::Scan(const std::string& truth_frame) {
       }
     });
   }
-  if (events_.name.empty()) {  // else the events' pass says it
-    for (DropCounts* dropped : {&streams_.dropped_imu, &streams_.dropped_truth}) {
-      dropped->cut_off = pass->cut_off();
-      dropped->lost_share = pass->lost_share();
-    }
-  }
+  NoteLoss(*pass, imu_, &streams_.dropped_imu);
+  NoteLoss(*pass, truth_, &streams_.dropped_truth);
   if (transforms) TakeTruth(frames, truth_frame);
   own_clock_ = packets && !EventPacketDecoder::HostTime(encoding);
   clock_.Solve();
   if (!imu_.name.empty()) streams_.imu_name = store_->name() + ": " + imu_.name;
   info_.format = store_->container() + ", " + events_.type + (encoding.empty() ? "" : " (" + encoding + ")");
   info_.sensor = events_.name;
+}
+
+// Unless the events of the same file are cut off, too: then their own pass says it.
+void RosRecording::NoteLoss(const MessagePass& pass, const RosTopic& topic, DropCounts* dropped) const {
+  if (topic.name.empty() || (!events_.name.empty() && pass.LossOf(events_.name).cut_off)) return;
+  const MessagePass::Loss loss = pass.LossOf(topic.name);
+  dropped->cut_off = loss.cut_off;
+  dropped->lost_share = loss.share;
 }
 
 void RosRecording::TakeTruth(const TransformPoses& frames, const std::string& frame) {

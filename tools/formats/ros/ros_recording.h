@@ -35,6 +35,7 @@ class RosRecording : public Recording {
 
  private:
   void Scan(const std::string& truth_frame);
+  void NoteLoss(const MessagePass& pass, const RosTopic& topic, DropCounts* dropped) const;
   void TakeTruth(const TransformPoses& frames, const std::string& frame);
 
   std::unique_ptr<MessageStore> store_;

@@ -15,31 +15,58 @@ namespace {
 
 class FolderPass : public MessagePass {
  public:
+  // Of parts without these topics nothing is read: that one of them is cut off does not matter.
   FolderPass(const std::vector<std::unique_ptr<MessageStore>>& parts, const std::set<std::string>& topics)
-      : parts_(parts), topics_(topics) {}
+      : topics_(topics) {
+    for (const auto& part : parts) {
+      if (std::any_of(topics.begin(), topics.end(), [&](const std::string& t) { return Has(*part, t); }))
+        parts_.push_back(part.get());
+    }
+  }
   bool Next(RosMessage* message) override {
     while (true) {
       if (pass_ && pass_->Next(message)) return true;
-      cut_off_ = cut_off_ || (pass_ && pass_->cut_off());
-      if (pass_) lost_share_ += pass_->lost_share() / static_cast<double>(parts_.size());
-      if (next_ == parts_.size()) return false;
+      if (pass_) NoteLoss(*parts_[next_ - 1]);
+      if (next_ == parts_.size()) return pass_ = nullptr, false;
       pass_ = parts_[next_++]->Read(topics_);
     }
   }
-  bool cut_off() const override { return cut_off_; }
-  double lost_share() const override { return lost_share_; }
+  bool cut_off() const override { return loss_.cut_off; }
+  double lost_share() const override { return loss_.share; }
+  Loss LossOf(const std::string& topic) const override {
+    const auto found = losses_.find(topic);
+    return found != losses_.end() ? found->second : Loss{};
+  }
   double share() const override {
-    if (!pass_) return 0;
+    if (!pass_) return next_ > 0 ? 1 : 0;
     return (static_cast<double>(next_) - 1 + pass_->share()) / static_cast<double>(parts_.size());
   }
 
  private:
-  const std::vector<std::unique_ptr<MessageStore>>& parts_;
+  static bool Has(const MessageStore& part, const std::string& topic) {
+    const std::vector<RosTopic>& all = part.topics();
+    return std::any_of(all.begin(), all.end(), [&](const RosTopic& t) { return t.name == topic; });
+  }
+  // At the end of a part: what it lost counts as its share of those that hold the topic.
+  void NoteLoss(const MessageStore& part) {
+    loss_.cut_off = loss_.cut_off || pass_->cut_off();
+    loss_.share += pass_->lost_share() / static_cast<double>(parts_.size());
+    for (const std::string& topic : topics_) {
+      if (!Has(part, topic)) continue;
+      const auto n = std::count_if(parts_.begin(), parts_.end(),
+                                   [&](const MessageStore* other) { return Has(*other, topic); });
+      Loss& loss = losses_[topic];
+      loss.cut_off = loss.cut_off || pass_->cut_off();
+      loss.share += pass_->lost_share() / static_cast<double>(n);
+    }
+  }
+
+  std::vector<const MessageStore*> parts_;
   std::set<std::string> topics_;
   std::unique_ptr<MessagePass> pass_;
   std::size_t next_ = 0;
-  bool cut_off_ = false;
-  double lost_share_ = 0;
+  Loss loss_;
+  std::map<std::string, Loss> losses_;  // of each topic
 };
 
 std::unique_ptr<MessageStore> OpenFile(const std::string& path) {

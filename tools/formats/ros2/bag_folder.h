@@ -8,7 +8,7 @@
 
 namespace evit::formats {
 
-/// The bags of one recording as one: the parts that ros2 bag splits a long one into, or files of different
+/// The bags of one recording as one: the parts that a recorder splits a long one into, or files of different
 /// topics. Parts come one after the other in order of time.
 class BagFolder : public MessageStore {
  public:
