@@ -42,12 +42,13 @@ Vector Moved(const OverlapCost::Values& from, const OverlapCost::Values& to) {
 
 // The best turn of a grid around the rig file's, as fine as the blur.
 OverlapCost::Values Search(const OverlapCost& cost, const OverlapCost::Values& from, double range,
-                           double step, std::size_t every) {
+                           double step, std::size_t every, const std::function<void()>& between_steps) {
   OverlapCost::Values best = from;
   double least = cost.Sparse(from, every);
   const int n = static_cast<int>(std::ceil(range / step));
   for (int x = -n; x <= n; ++x) {
     for (int y = -n; y <= n; ++y) {
+      if (between_steps) between_steps();
       for (int z = -n; z <= n; ++z) {
         OverlapCost::Values tried = from;
         tried.T_body_camera.q = tried.T_body_camera.q * ExpSO3(range / n * Eigen::Vector3d(x, y, z));
@@ -78,6 +79,7 @@ struct Problem {
   const OverlapCost::Values& rig;
   const Matrix& prior;
   double scale;  // of the cost: from grey levels to something like a log-likelihood
+  const std::function<void()>& between_steps;
 
   OverlapCost::Term At(const OverlapCost::Values& values) const {
     OverlapCost::Term term = cost.Total(values);
@@ -94,6 +96,7 @@ void Minimise(const Problem& problem, OverlapCost::Values* values) {
   double lambda = 1e-3;
   OverlapCost::Term term = problem.At(*values);
   for (int k = 0; k < kMaxIterations; ++k) {
+    if (problem.between_steps) problem.between_steps();
     Matrix H = term.hessian;
     H.diagonal() *= 1 + lambda;
     const Vector step = -H.ldlt().solve(term.gradient);
@@ -170,17 +173,17 @@ OverlapCalibration CalibrateByOverlap(const std::vector<MapView>& all, const Tra
   {
     const OverlapCost cost(&views, &body, rig.camera, coarse);
     values = Search(cost, before, options.search_deg / kDegreesPerRadian, 1.5 * coarse / rig.camera.fx,
-                    std::max<std::size_t>(1, views.size() / kSearchViews));
-    Minimise({cost, before, prior, 1}, &values);
+                    std::max<std::size_t>(1, views.size() / kSearchViews), options.between_steps);
+    Minimise({cost, before, prior, 1, options.between_steps}, &values);
   }
   OverlapCalibration result;
   const OverlapCost cost(&views, &body, rig.camera, options.blur_px);
-  Minimise({cost, before, prior, 1}, &values);
+  Minimise({cost, before, prior, 1, options.between_steps}, &values);
   prior = prior_all;
   // The weight of the cost against the prior: so that curvature and spread say the same of rotation.
   double scale = 1;
   for (int k = 0; k < 3; ++k) {
-    Minimise({cost, before, prior, scale}, &values);
+    Minimise({cost, before, prior, scale, options.between_steps}, &values);
     const Matrix H = cost.Total(values).hessian, S = Spread(cost, values);
     scale = 3 / (H.block<3, 3>(3, 3).ldlt().solve(S.block<3, 3>(3, 3))).trace();
     const Matrix A = (scale * H + prior).inverse();
@@ -188,7 +191,7 @@ OverlapCalibration CalibrateByOverlap(const std::vector<MapView>& all, const Tra
   }
   result.covariance += Common(views, rig.camera, options);
   const bool offset_held = HoldUnobservable(result.covariance, &prior, &result.unobservable);
-  if (!result.unobservable.empty()) Minimise({cost, before, prior, scale}, &values);
+  if (!result.unobservable.empty()) Minimise({cost, before, prior, scale, options.between_steps}, &values);
 
   result.T_body_camera = values.T_body_camera;
   result.offset = offset_held ? rig.camera_time_offset : std::llround(1e6 * values.offset);

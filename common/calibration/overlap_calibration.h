@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct OverlapCalibrationOptions {
   /// pixels: how far map, lens model and events may lie beside each other alike in all views. Goes into the
   /// sigmas of rotation and offset, which the spread between stretches does not show.
   double registration_px = 0.5;
+  /// Called between steps, some hundred times; what it throws ends the calibration. Empty: nothing.
+  std::function<void()> between_steps{};
 };
 
 /// Extrinsics and time offset of an event camera where the body's poses are known (motion capture): what

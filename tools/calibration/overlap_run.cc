@@ -92,7 +92,7 @@ MapViewOptions CalibrationViews() {
 }
 
 std::vector<MapView> ReadViews(const OverlapFiles& files, const Rig& rig, const Trajectory& body,
-                               MapViewOptions options) {
+                               MapViewOptions options, const std::function<void()>& between_packets) {
   options.step = std::max(kStep, (body.back().t - body.front().t) / kMostViews);
   std::vector<MapView> views = PlanViews(MapIndex(LoadMap(files.map).map), rig, body, options);
   if (views.empty()) {
@@ -101,8 +101,10 @@ std::vector<MapView> ReadViews(const OverlapFiles& files, const Rig& rig, const 
         " has it in view; are both in one frame, in metres, and the poses those of the body?");
   }
   ViewFiller filler(&views);
-  ForEachEventPacket(files.log, views.front().begin, views.back().end,
-                     [&](const EventArray& events) { filler.AddEvents(events); });
+  ForEachEventPacket(files.log, views.front().begin, views.back().end, [&](const EventArray& events) {
+    if (between_packets) between_packets();
+    filler.AddEvents(events);
+  });
   if (std::all_of(views.begin(), views.end(), [](const MapView& v) { return v.n_events == 0; })) {
     throw std::runtime_error(files.log + ": has no events at the times of " + files.truth +
                              "; are both of one recording and one clock?");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,8 +20,10 @@ MapViewOptions CalibrationViews();
 
 /// The views of these files, some 33 ms apart or farther where the recording is long (the options' step does
 /// not count), their events filled in. Throws std::runtime_error naming the file and what is wrong.
+/// `between_packets`: called again and again while the log is read; what it throws ends that.
 std::vector<MapView> ReadViews(const OverlapFiles& files, const Rig& rig, const Trajectory& body,
-                               MapViewOptions options = {});
+                               MapViewOptions options = {},
+                               const std::function<void()>& between_packets = {});
 
 /// The poses of the part asked for.
 Trajectory ReadTruth(const OverlapFiles& files);

@@ -13,6 +13,7 @@
 #include "tools/calibration/recorded_motion.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/data_file.h"
+#include "tools/evit/interruptible.h"
 #include "tools/evit/options.h"
 #include "tools/run/run.h"
 
@@ -60,11 +61,16 @@ void CalibrateWithTruth(const CalibrateOptions& o) {
   const Trajectory body = calibration::ReadTruth(files);
   std::printf("reading %s\n", o.job.log.c_str());
   std::fflush(stdout);
-  const std::vector<MapView> views =
-      calibration::ReadViews(files, before, body, calibration::CalibrationViews());
-  std::printf("calibrating from %zu views\n", views.size());
-  std::fflush(stdout);
-  const OverlapCalibration found = CalibrateByOverlap(views, body, before);
+  OverlapCalibration found;
+  RunUntilSignal("evit calibrate", [&](const auto& check) {
+    const std::vector<MapView> views =
+        calibration::ReadViews(files, before, body, calibration::CalibrationViews(), check);
+    std::printf("calibrating from %zu views\n", views.size());
+    std::fflush(stdout);
+    OverlapCalibrationOptions options;
+    options.between_steps = check;
+    found = CalibrateByOverlap(views, body, before, options);
+  });
   if (!found.success) throw std::runtime_error("not calibrated: " + found.reason);
   std::printf("%s", calibration::OverlapText(before, found).c_str());
   if (o.out.empty()) return;

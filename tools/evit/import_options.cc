@@ -75,7 +75,7 @@ void RunImport(const std::string& label, const formats::ImportTarget& target, co
   PrintDropped(s.dropped_imu, "IMU samples");
   PrintDropped(s.dropped_truth, "truth poses");
   constexpr double kShort = 0.05;  // s
-  if (s.seconds < kShort && s.n_events >= 1000)
+  if (s.seconds < kShort && s.n_events >= 1000 && !s.dropped_events.cut_off)
     std::printf(
         "only %.6f s long: if it is longer, name the unit of its stamps in the head (t_ms, t_us, t_ns)\n",
         s.seconds);

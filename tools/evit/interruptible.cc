@@ -9,20 +9,29 @@
 
 namespace evit::commands {
 
-void RunInterruptibly(const std::string& command, const std::string& doing,
-                      const std::function<void(const std::function<void(double)>& report)>& work) {
+void RunUntilSignal(const std::string& command,
+                    const std::function<void(const std::function<void()>& check)>& work) {
   const StopSignals signals;
   try {
-    terminal::ProgressBar bar(doing);
-    work([&](double share) {
+    work([&signals] {
       if (signals.received()) throw std::runtime_error("interrupted");
-      bar.Show(share);
     });
   } catch (const std::runtime_error&) {
     if (!signals.received()) throw;
     std::fprintf(stderr, "%s: interrupted; nothing was written\n", command.c_str());
     throw CLI::RuntimeError(130);
   }
+}
+
+void RunInterruptibly(const std::string& command, const std::string& doing,
+                      const std::function<void(const std::function<void(double)>& report)>& work) {
+  RunUntilSignal(command, [&](const auto& check) {
+    terminal::ProgressBar bar(doing);
+    work([&](double share) {
+      check();
+      bar.Show(share);
+    });
+  });
 }
 
 }  // namespace evit::commands

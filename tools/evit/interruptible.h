@@ -11,4 +11,8 @@ namespace evit::commands {
 void RunInterruptibly(const std::string& command, const std::string& doing,
                       const std::function<void(const std::function<void(double)>& report)>& work);
 
+/// The same without a bar: `work` is given what throws after such a signal, to be called now and then.
+void RunUntilSignal(const std::string& command,
+                    const std::function<void(const std::function<void()>& check)>& work);
+
 }  // namespace evit::commands
