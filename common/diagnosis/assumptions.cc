@@ -66,12 +66,22 @@ void AddClocks(const Rig& rig, std::vector<Assumption>* all) {
         {FormatText("The camera's clock is some %.0f ms off", ms),
          FormatText("set `time_offset_us: %.0f` in the rig file, then let `evit calibrate` find it exactly",
                     static_cast<double>(rig.camera_time_offset) + 1e3 * ms),
-         [ms](World* w) { w->rig.camera_time_offset += std::llround(1e3 * ms); }, "time-offset"});
+         [ms](World* w) { w->rig.camera_time_offset += std::llround(1e3 * ms); }, "time-offset",
+         // By less than that pixels in dim light are late, and a slow image hardly tells.
+         std::abs(ms) >= 40 ? 1.2 : 1.3});
   }
 }
 
+// The principal point that would do nearly the same as a small turn.
+std::string OrCentre(const Rig& rig, double degrees, char axis) {
+  if (axis == 'z') return "";
+  const double focal = axis == 'x' ? rig.camera.fy : rig.camera.fx;
+  return FormatText(", or %s by some %.0f pixels", axis == 'x' ? "cy" : "cx",
+                    focal * std::tan(std::abs(degrees) / kDegreesPerRadian));
+}
+
 // Right angles by convention, small ones by hand.
-void AddTurns(std::vector<Assumption>* all) {
+void AddTurns(const Rig& rig, std::vector<Assumption>* all) {
   for (const Eigen::Vector3d& axis :
        {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1)}) {
     const char name = axis.x() > 0 ? 'x' : axis.y() > 0 ? 'y' : 'z';
@@ -89,8 +99,8 @@ void AddTurns(std::vector<Assumption>* all) {
            [degrees, axis](World* w) { w->rig.T_body_camera = w->rig.T_body_camera * Turn(degrees, axis); }});
     }
     for (const double degrees : {1.0, -1.0, 2.0, -2.0, 4.0, -4.0, 8.0, -8.0}) {
-      all->push_back({FormatText("T_body_camera is off by some %.0f degrees about the camera's %c axis",
-                                 std::abs(degrees), name),
+      all->push_back({FormatText("T_body_camera is off by some %.0f degrees about the camera's %c axis%s",
+                                 std::abs(degrees), name, OrCentre(rig, degrees, name).c_str()),
                       "let `evit calibrate` find the extrinsics", [degrees, axis](World* w) {
                         w->rig.T_body_camera = w->rig.T_body_camera * Turn(degrees, axis);
                       }});
@@ -105,7 +115,7 @@ std::vector<Assumption> Assumptions(const Rig& rig) {
   AddConventions(&all);
   AddImages(&all);
   AddClocks(rig, &all);
-  AddTurns(&all);
+  AddTurns(rig, &all);
   return all;
 }
 

@@ -21,6 +21,7 @@ struct Assumption {
   std::string what, remedy;  // for a person
   std::function<void(World*)> make;
   std::string check = "map-overlap";  // that it is a finding of
+  double gain = 1.3;                  // overlap with it over that without, at least
 };
 
 /// What is usually wrong where a map does not lie on the events, the most usual first: extrinsics inverted,

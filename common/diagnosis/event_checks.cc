@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/diagnosis/dead_area.h"
+#include "common/diagnosis/dead_lines.h"
 #include "common/diagnosis/flicker.h"
 #include "common/events/known_sensors.h"
 #include "common/text/format_text.h"
@@ -69,13 +70,23 @@ Finding Order(const EventCensus& e) {
 Finding Polarity(const EventCensus& e) {
   const double on =
       static_cast<double>(e.brighter()) / static_cast<double>(std::max<std::int64_t>(1, e.count()));
-  const std::string figure = FormatText("%.0f %% brighter", 100 * on);
+  const EventCensus::Company& company = e.company();
+  const double in_company = static_cast<double>(std::max<std::int64_t>(1, company.alike + company.unlike)),
+               alike = static_cast<double>(company.alike) / in_company;
+  const std::string figure =
+      FormatText("%.0f %% brighter; %.0f %% as their neighbours just before", 100 * on, 100 * alike);
   if (on < 0.02 || on > 0.98) {
     return {
         "polarity", Severity::kError, figure,
         "All events have one polarity: it was lost on the way, or one kind of event is switched off in the "
         "camera.",
         "check how polarity is coded (0/1, -1/1) where the recording was converted, and the camera's biases"};
+  }
+  // Of edges, what fires beside another has its polarity; of thin lines, three in four.
+  if (company.alike + company.unlike > 1000 && alike < 0.6) {
+    return {"polarity", Severity::kWarning, figure,
+            "Polarity is as by chance: neighbours on an edge do not have the same, as they must.",
+            "look at how polarity is read where the recording was converted; EVIT itself does not need it"};
   }
   if (on < 0.2 || on > 0.8) {
     return {"polarity", Severity::kWarning, figure, "One polarity is far more frequent than the other.",
@@ -149,7 +160,7 @@ Finding HotPixels(const EventCensus& e) {
   const double share = static_cast<double>(from_hot) / static_cast<double>(e.count());
   const std::string figure =
       FormatText("%lld hot pixels with %.1f %% of the events", static_cast<long long>(hot), 100 * share);
-  if (share > 0.1 || hot > static_cast<std::int64_t>(e.by_pixel().size() / 500)) {
+  if (share > 0.07 || hot > static_cast<std::int64_t>(e.by_pixel().size() / 500)) {
     return {"hot-pixels", share > 0.5 ? Severity::kError : Severity::kWarning, figure,
             "Some pixels fire without a cause, again and again.",
             "mask them in the driver; EVIT leaves out pixels above `surface.hot_pixel_rate_hz`"};
@@ -212,19 +223,6 @@ Finding Noise(const EventCensus& e) {
   return Good("event-noise", figure);
 }
 
-Finding FlickerOf(const EventCensus& e) {
-  const Flicker f = FindFlicker(e);
-  const std::string figure = FormatText("strongest swing %.0f %% at %.0f Hz", 100 * f.swing, f.hz);
-  if (f.swing > 0.25 && f.excess > 6) {
-    return {"flicker", f.swing > 0.5 ? Severity::kError : Severity::kWarning, figure,
-            FormatText("The light flickers at %.0f Hz: a lamp on %d Hz mains. It makes events on every edge, "
-                       "moving or not.",
-                       f.hz, f.hz == 50 || f.hz == 100 ? 50 : 60),
-            "use daylight or lamps with direct current; else switch on the camera's anti-flicker filter"};
-  }
-  return Good("flicker", figure);
-}
-
 }  // namespace
 
 Findings CheckEvents(const EventCensus& events) {
@@ -236,9 +234,9 @@ Findings CheckEvents(const EventCensus& events) {
   // Where the sensor is a smaller one, what it does not have is no fault of its pixels.
   const bool whole = found.back().severity == Severity::kGood;
   for (Finding& finding :
-       Findings{Gaps(events), HotPixels(events), DeadPixels(events), FlickerOf(events), Noise(events)})
+       Findings{Gaps(events), HotPixels(events), DeadPixels(events), CheckFlicker(events), Noise(events)})
     found.push_back(std::move(finding));
-  if (whole) found.push_back(CheckDeadArea(events));
+  if (whole) found.push_back(CheckDeadArea(events)), found.push_back(CheckDeadLines(events));
   return found;
 }
 

@@ -1,12 +1,12 @@
 #include "common/diagnosis/gravity_consistency.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
 #include "common/diagnosis/rising_samples.h"
+#include "common/diagnosis/signed_permutations.h"
 #include "common/geometry/so3.h"
 
 namespace evit::diagnosis {
@@ -15,20 +15,6 @@ namespace {
 constexpr Utime kApart = 1'000'000, kHalf = 100'000, kStep = 250'000, kWhole = 5'000;  // us
 constexpr std::size_t kMostPairs = 200;
 constexpr double kDegree = 0.017453292519943295;
-
-// Signed permutations of the axes: 24 turns and their mirror images.
-std::vector<Eigen::Matrix3d> SignedPermutations() {
-  std::vector<Eigen::Matrix3d> all;
-  std::array<int, 3> order{0, 1, 2};
-  do {
-    for (int signs = 0; signs < 8; ++signs) {
-      Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
-      for (int k = 0; k < 3; ++k) m(k, order[static_cast<std::size_t>(k)]) = (signs >> k & 1) != 0 ? -1 : 1;
-      all.push_back(m);
-    }
-  } while (std::next_permutation(order.begin(), order.end()));
-  return all;
-}
 
 struct Interval {
   double seconds;

@@ -67,6 +67,17 @@ Finding Gaps(const std::vector<double>& steps) {
   return Good("imu-gaps", figure);
 }
 
+// Share of the readings below the largest that are the same as the one before.
+template <typename Value>
+double RepeatsBelow(const std::vector<ImuSample>& samples, const Value& value, double largest) {
+  double n = 0, same = 0;
+  for (std::size_t k = 1; k < samples.size(); ++k) {
+    const double now = value(samples[k]);
+    if (now < largest) n += 1, same += now == value(samples[k - 1]) ? 1 : 0;
+  }
+  return n > 0 ? same / n : 1;
+}
+
 // Readings that stay at one extreme value: cut off there, whatever the rig file says.
 Finding Saturation(const std::vector<ImuSample>& samples, const ImuNoise& limits) {
   std::size_t cut = 0;
@@ -80,11 +91,14 @@ Finding Saturation(const std::vector<ImuSample>& samples, const ImuNoise& limits
     double largest = 0;
     for (const ImuSample& s : samples) largest = std::max(largest, value(s));
     const double range = gyro ? limits.gyro_range : limits.accel_range;
-    if (largest < (gyro ? 1.0 : 12.0))
-      continue;  // a reading that rests at its extreme is not a clipped motion
+    // A reading that rests at its extreme, in steps of the sensor, is not a clipped motion; one that stays
+    // there to the last digit, and nowhere else, is.
+    const bool small = largest < (gyro ? 1.0 : 12.0);
+    if (small && RepeatsBelow(samples, value, largest) > 0.01) continue;
+    const double extreme = (small ? 1 : 0.9999) * largest;
     std::size_t at = 0, run = 0;
     for (std::size_t k = 0; k < samples.size(); ++k) {
-      run = value(samples[k]) >= 0.9999 * largest || value(samples[k]) >= 0.99 * range ? run + 1 : 0;
+      run = value(samples[k]) >= extreme || value(samples[k]) >= 0.99 * range ? run + 1 : 0;
       if (run < 3) continue;
       at += run == 3 ? 3 : 1;
       for (std::size_t back = 0; back < 3; ++back) any[k - back] = true;
@@ -131,7 +145,7 @@ Finding NoiseOf(const std::vector<ImuSample>& samples, const std::vector<double>
   const std::string figure =
       FormatText("when calmest, %.1f (gyro) and %.1f (accelerometer) times the rig file's noise",
                  gyro / noise.gyro_density, accel / noise.accel_density);
-  if (samples.size() > 200 && more > 20) {
+  if (samples.size() > 200 && more > 7) {
     return {"imu-noise", Severity::kWarning, figure,
             "The IMU is far noisier than the rig file says: vibration, or another sensor's figures.",
             "mount it on rubber; take the densities from its data sheet or from a recording at rest (Allan "

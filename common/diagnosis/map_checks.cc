@@ -5,11 +5,14 @@
 #include <cstddef>
 
 #include "common/geometry/degrees.h"
+#include "common/geometry/so3.h"
 #include "common/map/map_file.h"
 #include "common/text/format_text.h"
 
 namespace evit::diagnosis {
 namespace {
+
+constexpr double kFarStart = 0.5, kTurnedStart = 25;  // m, deg
 
 Finding Unit(const MapSummary& s) {
   const double extent = (s.max - s.min).maxCoeff();
@@ -61,6 +64,18 @@ Finding View(const MapIndex& map, const Rig& rig, const SE3& start) {
   return Good("start-view", figure);
 }
 
+// A start is searched for around the given pose, but not further.
+Finding Known(const SE3& start, const SE3& known) {
+  const double away = (start.p - known.p).norm(),
+               turned = kDegreesPerRadian * AngularDistance(start.q, known.q);
+  const std::string figure = FormatText("start pose %.0f cm and %.0f deg off the truth", 100 * away, turned);
+  if (away < kFarStart && turned < kTurnedStart) return Good("start-pose", figure);
+  return {"start-pose", Severity::kError, figure,
+          FormatText("The start pose is %.2f m and %.0f deg off where the truth begins.", away, turned),
+          "give the pose of the IMU in the map at the beginning of the recording, or none: EVIT then looks "
+          "for it"};
+}
+
 Finding Upright(const SE3& start, const std::vector<ImuSample>& imu) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const ImuSample& s : imu)
@@ -84,9 +99,10 @@ Finding Upright(const SE3& start, const std::vector<ImuSample>& imu) {
 
 Findings CheckMap(const PointMap& map) { return {Unit(Summarize(map))}; }
 
-Findings CheckStart(const MapIndex& map, const Rig& rig, const SE3& start,
-                    const std::vector<ImuSample>& imu) {
+Findings CheckStart(const MapIndex& map, const Rig& rig, const SE3& start, const std::vector<ImuSample>& imu,
+                    const std::optional<SE3>& known) {
   Findings found{View(map, rig, start)};
+  if (known) found.push_back(Known(start, *known));
   if (imu.size() > 20) found.push_back(Upright(start, imu));
   return found;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "common/diagnosis/finding.h"
@@ -15,7 +16,8 @@ namespace evit::diagnosis {
 Findings CheckMap(const PointMap& map);
 
 /// Does a start pose (T_map_body) see the map, and stand upright in it? `imu`: the recording's, whose
-/// beginning counts.
-Findings CheckStart(const MapIndex& map, const Rig& rig, const SE3& start, const std::vector<ImuSample>& imu);
+/// beginning counts. `known`: where the body then is by known poses, if given.
+Findings CheckStart(const MapIndex& map, const Rig& rig, const SE3& start, const std::vector<ImuSample>& imu,
+                    const std::optional<SE3>& known);
 
 }  // namespace evit::diagnosis

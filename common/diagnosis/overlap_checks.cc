@@ -36,8 +36,9 @@ MapEventOverlap Measure(const MapIndex& map, const World& world, const EventExce
   return MeasureOverlap(world.rig, ViewsOf(map, world, excerpts, stride, options), WithinAPixel());
 }
 
-// The unit in which the map lies on the events, where one does.
-std::optional<Finding> OtherUnit(const MapIndex& map, const World& world, const EventExcerpts& excerpts) {
+// The unit in which the map lies on the events, where one does better than `best`.
+std::optional<Finding> OtherUnit(const MapIndex& map, const World& world, const EventExcerpts& excerpts,
+                                 double best) {
   const std::pair<double, const char*> units[] = {{0.01, "centimetres"},
                                                   {0.001, "millimetres"},
                                                   {0.3048, "feet"},
@@ -47,7 +48,7 @@ std::optional<Finding> OtherUnit(const MapIndex& map, const World& world, const 
     PointMap scaled = map.map();
     for (Eigen::Vector3f& p : scaled.points) p *= static_cast<float>(metres);
     const MapEventOverlap overlap = Measure(MapIndex(std::move(scaled)), world, excerpts);
-    if (overlap.views == 0 || overlap.kappa() < kFits) continue;
+    if (overlap.views == 0 || overlap.kappa() < best) continue;
     return Finding{"map-unit", Severity::kError,
                    FormatText("overlap %.2f, of 1, where it is scaled", overlap.kappa()),
                    FormatText("The map is in %s: scaled by %g it lies on the events.", name, metres),
@@ -82,6 +83,22 @@ std::optional<Finding> OtherClock(const MapIndex& map, const World& world, const
           static_cast<double>(world.rig.camera_time_offset + offset))};
 }
 
+// Of good recordings, real and simulated, a hundredth of the pixels and more fire while the image moves by
+// some pixels, and the points of a map that lies on them have events.
+std::optional<Finding> TooFewEvents(const MapEventOverlap& given, const Camera& camera) {
+  constexpr double kOfPixels = 0.003, kOnEvents = 0.2;
+  const double fired =
+      given.views > 0 ? static_cast<double>(given.fired) / static_cast<double>(given.views) : 0;
+  if (given.views == 0 || fired > kOfPixels * camera.width * camera.height || given.point_share() > kOnEvents)
+    return {};
+  return Finding{
+      "event-rate", Severity::kError,
+      FormatText("%.0f pixels fire in a view of the map, %.0f %% of its points have events within a pixel",
+                 fired, 100 * given.point_share()),
+      "The camera moves, but edges make hardly any events: its thresholds are set too high, or it is dark.",
+      "lower the camera's contrast thresholds (bias_diff_on, bias_diff_off), or give it more light"};
+}
+
 }  // namespace
 
 Findings CheckOverlap(const MapIndex& map, const Rig& rig, const Trajectory& truth,
@@ -89,6 +106,7 @@ Findings CheckOverlap(const MapIndex& map, const Rig& rig, const Trajectory& tru
   const World as_is{rig, Around(truth, excerpts, rig.camera_time_offset, 400'000)};
   const MapEventOverlap given = Measure(map, as_is, excerpts);
   const double kappa = given.views > 0 ? given.kappa() : 0;
+  if (const std::optional<Finding> few = TooFewEvents(given, rig.camera)) return {*few};
   const Assumption* better = nullptr;
   double best = kappa;
   const std::vector<Assumption> all = Assumptions(rig);
@@ -105,7 +123,12 @@ Findings CheckOverlap(const MapIndex& map, const Rig& rig, const Trajectory& tru
   const std::string figure =
       FormatText("%.0f %% of the points have events within a pixel (by chance %.0f %%)",
                  100 * given.point_share(), 100 * given.point_share_by_chance());
-  const bool mended = better != nullptr && best > kFits && best > 1.3 * kappa + 0.03;
+  const bool mended = better != nullptr && best > kFits && best > better->gain * kappa + 0.03;
+  // What a map far too large shows of itself is so little that some turn of it fits by chance.
+  const bool nowhere = given.views == 0 || kappa < 0.03;
+  if (nowhere)
+    if (const std::optional<Finding> unit = OtherUnit(map, as_is, excerpts, std::max(kFits, best)))
+      return {*unit};
   // What is off by some amount fits better at that amount than at the nearest of the usual ones.
   PlacementCheck placement = CheckPlacement(map, as_is, excerpts, mended ? best : kFits);
   if (placement.misplaced) return std::move(placement.findings);
@@ -115,10 +138,9 @@ Findings CheckOverlap(const MapIndex& map, const Rig& rig, const Trajectory& tru
                  FormatText(": then the map lies on the events (%.2f instead of %.2f, of 1).", best, kappa),
              better->remedy}};
   }
-  if (given.views == 0 || kappa < 0.03) {
+  if (nowhere) {
     const World longer{rig, Around(truth, excerpts, rig.camera_time_offset, kLongestOffset + 400'000)};
     if (const std::optional<Finding> clock = OtherClock(map, longer, excerpts)) return {*clock};
-    if (const std::optional<Finding> unit = OtherUnit(map, as_is, excerpts)) return {*unit};
   }
   if (given.views == 0) {
     return {{"map-overlap", Severity::kError, "no map points in view at the truth's poses",

@@ -28,16 +28,6 @@ bool FiresEverywhere(const Sample& s) {
   return s.events.size() > 5 * static_cast<std::size_t>(s.rig.camera.width * s.rig.camera.height);
 }
 
-void SortEvents(EventArray* events) {
-  std::vector<std::size_t> order(events->size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  std::stable_sort(order.begin(), order.end(),
-                   [events](std::size_t a, std::size_t b) { return events->t[a] < events->t[b]; });
-  EventArray sorted;
-  for (const std::size_t k : order) sorted.push_back(events->t[k], events->x[k], events->y[k], events->p[k]);
-  *events = std::move(sorted);
-}
-
 // Without the events of a rectangle, given as shares of the image.
 void SilencePixels(Sample* s, double left, double top, double right, double bottom) {
   const int w = s->rig.camera.width, h = s->rig.camera.height;
@@ -378,15 +368,19 @@ const std::vector<Fault>& Faults() {
   return faults;
 }
 
-bool IsNamed(const Fault& fault, const diagnosis::Findings& findings, std::string* said) {
+bool IsNamed(const std::vector<std::string>& checks, const diagnosis::Findings& findings, std::string* said) {
   bool named = false;
   for (std::size_t k = 0; k < findings.size(); ++k) {
     const Finding& f = findings[k];
     if (f.severity == Severity::kGood) continue;
     *said += f.check + ": " + f.what + " (" + f.figure + ")\n";
-    named = named || (k < 2 && f.check == fault.check);
+    named = named || (k < 2 && std::find(checks.begin(), checks.end(), f.check) != checks.end());
   }
   return named;
+}
+
+bool IsNamed(const Fault& fault, const diagnosis::Findings& findings, std::string* said) {
+  return IsNamed(std::vector<std::string>{fault.check}, findings, said);
 }
 
 }  // namespace evit::doctor

@@ -16,6 +16,8 @@ struct Fault {
 };
 const std::vector<Fault>& Faults();
 
+/// Whether any of `checks` is named first or second; `said` as below.
+bool IsNamed(const std::vector<std::string>& checks, const diagnosis::Findings& findings, std::string* said);
 /// Whether the doctor names the fault first or second; `said`: what it says of a sick sample, a line each.
 bool IsNamed(const Fault& fault, const diagnosis::Findings& findings, std::string* said);
 

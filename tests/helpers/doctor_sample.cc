@@ -26,23 +26,37 @@ void WriteMessage(LogWriter* log, Utime utime, const std::string& channel, const
   log->Write(utime, channel, bytes.data(), bytes.size());
 }
 
+// Events in packets, which are in order each: one ends where stamps go back.
+std::vector<event_packet_t> Packets(const EventArray& events) {
+  std::vector<event_packet_t> packets;
+  EventArray run;
+  const auto close = [&] {
+    for (event_packet_t& packet : ToPackets(run, 1, static_cast<std::int64_t>(packets.size())))
+      packets.push_back(std::move(packet));
+    run.clear();
+  };
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    if (run.size() > 0 && events.t[k] < run.t.back()) close();
+    run.push_back(events.t[k], events.x[k], events.y[k], events.p[k]);
+  }
+  close();
+  return packets;
+}
+
 void WriteLog(const std::string& path, const Sample& s) {
   LogWriter log(path);
   std::int64_t seq = 0;
   std::size_t next = 0;
-  for (const event_packet_t& packet : ToPackets(s.events, 1, 0)) {
-    for (; next < s.imu.size() && s.imu[next].t <= packet.utime; ++next) {
-      imu_batch_t batch = ToMessage(s.imu[next]);
-      batch.seq = seq++, batch.epoch = 1;
-      WriteMessage(&log, s.imu[next].t, "IMU", batch);
-    }
+  const auto write_imu = [&](const ImuSample& sample) {
+    imu_batch_t batch = ToMessage(sample);
+    batch.seq = seq++, batch.epoch = 1;
+    WriteMessage(&log, sample.t, "IMU", batch);
+  };
+  for (const event_packet_t& packet : Packets(s.events)) {
+    for (; next < s.imu.size() && s.imu[next].t <= packet.utime; ++next) write_imu(s.imu[next]);
     WriteMessage(&log, packet.utime, "EVENTS", packet);
   }
-  for (; next < s.imu.size(); ++next) {
-    imu_batch_t batch = ToMessage(s.imu[next]);
-    batch.seq = seq++, batch.epoch = 1;
-    WriteMessage(&log, s.imu[next].t, "IMU", batch);
-  }
+  for (; next < s.imu.size(); ++next) write_imu(s.imu[next]);
   log.Close();
 }
 
@@ -53,6 +67,26 @@ void KeepEvents(Sample* s, const std::function<bool(std::size_t)>& keep) {
   for (std::size_t k = 0; k < s->events.size(); ++k)
     if (keep(k)) kept.push_back(s->events.t[k], s->events.x[k], s->events.y[k], s->events.p[k]);
   s->events = std::move(kept);
+}
+
+void SortEvents(EventArray* events) {
+  std::vector<std::size_t> order(events->size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::stable_sort(order.begin(), order.end(),
+                   [events](std::size_t a, std::size_t b) { return events->t[a] < events->t[b]; });
+  EventArray sorted;
+  for (const std::size_t k : order) sorted.push_back(events->t[k], events->x[k], events->y[k], events->p[k]);
+  *events = std::move(sorted);
+}
+
+void AddUniformEvents(Sample* s, std::size_t n, std::mt19937* random) {
+  const Utime begin = s->events.t.front(), end = s->events.t.back();
+  for (std::size_t k = 0; k < n; ++k)
+    s->events.push_back(begin + static_cast<Utime>((*random)() % static_cast<std::uint32_t>(end - begin)),
+                        static_cast<std::uint16_t>((*random)() % static_cast<unsigned>(s->rig.camera.width)),
+                        static_cast<std::uint16_t>((*random)() % static_cast<unsigned>(s->rig.camera.height)),
+                        (*random)() % 2);
+  SortEvents(&s->events);
 }
 
 Sample LoadSample(const std::string& log, const std::string& rig, const std::string& map,
@@ -99,7 +133,10 @@ diagnosis::Findings ExamineSample(const Sample& s) {
   patient.map = folder / "map.pcd", patient.truth = folder / "truth.tum";
   WriteLog(patient.log, s);
   WriteRig(patient.rig, s.rig, "sick", "");
-  WritePcd(patient.map, s.map);
+  if (s.map.points.empty())
+    patient.map.clear();
+  else
+    WritePcd(patient.map, s.map);
   WriteTum(patient.truth, s.truth);
   patient.start = s.start;
   diagnosis::Findings findings = Examine(patient, [](double) {});

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -28,13 +29,17 @@ struct Sample {
 Sample LoadSample(const std::string& log, const std::string& rig, const std::string& map,
                   const std::string& truth, double seconds = 60);
 
-/// What the doctor says of it.
+/// What the doctor says of it; without a map where that has no points.
 diagnosis::Findings ExamineSample(const Sample& sample);
 
 /// The events, IMU samples and poses of [begin, end] s after the first event.
 Sample Piece(const Sample& sample, double begin, double end);
 /// The events of the indices that are to be kept.
 void KeepEvents(Sample* sample, const std::function<bool(std::size_t)>& keep);
+/// By their stamps; equal ones stay as they are.
+void SortEvents(EventArray* events);
+/// Noise: `n` events at any time and pixel.
+void AddUniformEvents(Sample* sample, std::size_t n, std::mt19937* random);
 /// Every `n`th event left out.
 Sample Thinned(const Sample& sample, int n);
 

@@ -8,13 +8,16 @@
 
 #include "common/alignment/event_flow.h"
 #include "common/config/rig_file.h"
+#include "common/diagnosis/accel_axes.h"
 #include "common/diagnosis/accel_scale.h"
 #include "common/diagnosis/clock_checks.h"
 #include "common/diagnosis/event_checks.h"
 #include "common/diagnosis/imu_checks.h"
 #include "common/diagnosis/map_checks.h"
+#include "common/diagnosis/motion_check.h"
 #include "common/diagnosis/overlap_checks.h"
 #include "common/diagnosis/rig_checks.h"
+#include "common/diagnosis/stamp_checks.h"
 #include "common/diagnosis/truth_checks.h"
 #include "common/evaluation/trajectory.h"
 #include "common/map/map_file.h"
@@ -55,6 +58,11 @@ bool AllGood(const Findings& findings) {
                      [](const Finding& f) { return f.severity == Severity::kGood; });
 }
 
+bool OnlyGravityIsWrong(const Findings& of_truth) {
+  return std::all_of(of_truth.begin(), of_truth.end(),
+                     [](const Finding& f) { return f.severity == Severity::kGood || f.check == "gravity"; });
+}
+
 Findings CheckLog(const RecordedData& data) {
   Findings found;
   if (data.malformed() > 0) {
@@ -80,10 +88,11 @@ void CheckPlace(const Patient& patient, const Rig& rig, const Trajectory& truth,
   if (!usable) return;
   const MapIndex map(std::move(points));
   std::optional<SE3> start = patient.start;
+  std::optional<SE3> known;  // in a recording whose clocks agree
   SE3 pose;
-  if (!start && truth.size() > 1 && !imu.empty() &&
-      PoseAt(truth, std::max(truth.front().t, imu.front().t), &pose))
-    start = pose;
+  if (truth.size() > 1 && !imu.empty() && PoseAt(truth, std::max(truth.front().t, imu.front().t), &pose))
+    known = pose;
+  if (!start) start = known;
   Findings at_truth;
   if (!excerpts.instants().empty()) at_truth = diagnosis::CheckOverlap(map, rig, truth, excerpts);
   // What would mend the overlap says more than that the start sees nothing.
@@ -92,7 +101,8 @@ void CheckPlace(const Patient& patient, const Rig& rig, const Trajectory& truth,
     if (!patient.start) return;
     at_truth.clear();
   }
-  if (start) Append(found, diagnosis::CheckStart(map, rig, *start, imu));
+  if (start)
+    Append(found, diagnosis::CheckStart(map, rig, *start, imu, patient.start ? known : std::nullopt));
   Append(found, std::move(at_truth));
 }
 
@@ -113,12 +123,17 @@ Findings Examine(const Patient& patient, const std::function<void(double)>& prog
              progress});
   // The more basic cause first: of findings that are equally bad the first one is what to mend.
   Findings found = CheckLog(data);
-  Append(&found, diagnosis::CheckEvents(events));
+  Append(&found,
+         diagnosis::CheckStamps(events, ToSeconds(data.end() - data.begin()), imu, data.imu_seconds(), rig));
   const Findings of_imu = diagnosis::CheckImu(imu, rig), of_truth = diagnosis::CheckTruth(truth, imu);
+  found.push_back(diagnosis::CheckMotion(imu, AllGood(of_truth) ? truth : Trajectory{}));
+  Append(&found, diagnosis::CheckEvents(events));
   Append(&found, of_imu);
   // The mean force of an IMU that is wrong otherwise says nothing.
   if (AllGood(of_imu) && AllGood(of_truth))
     found.push_back(diagnosis::CheckAccelScale(imu, truth, rig.gravity));
+  if (AllGood(of_imu) && OnlyGravityIsWrong(of_truth))
+    found.push_back(diagnosis::CheckAccelAxes(imu, truth, rig.gravity));
   Append(&found, diagnosis::CheckClocks(events, flow.samples(), imu, rig.camera_time_offset));
   Append(&found, diagnosis::CheckRig(rig));
   Append(&found, of_truth);

@@ -26,28 +26,40 @@ std::string FindChannel(const LogReader& log, const std::string& path, const std
                            "); make a log with `evit import`");
 }
 
+// The first message of a channel that `use` can use, from the beginning and from the end.
+void ForFirstAndLast(LogReader* log, const std::string& channel,
+                     const std::function<bool(const std::vector<std::uint8_t>&, bool first)>& use) {
+  std::vector<std::uint8_t> bytes;
+  const auto usable = [&](const LogEntry& entry, bool first) {
+    if (channel.empty() || log->channel(entry) != channel) return false;
+    log->Read(entry, &bytes);
+    return use(bytes, first);
+  };
+  for (auto entry = log->entries().begin(); entry != log->entries().end() && !usable(*entry, true);) ++entry;
+  for (auto entry = log->entries().rbegin(); entry != log->entries().rend() && !usable(*entry, false);)
+    ++entry;
+}
+
 }  // namespace
 
 RecordedData::RecordedData(const std::string& path)
     : log_(path), events_(FindChannel(log_, path, "EVENTS")), imu_(FindChannel(log_, path, "IMU")) {
   if (events_.empty() && imu_.empty())
     throw std::runtime_error(path + " has neither events nor an IMU; make a log with `evit import`");
-  event_packet_t first, last;
-  std::vector<std::uint8_t> bytes;
-  EventArray events;
-  const auto stamp = [&](const LogEntry& entry, bool at_begin) {
-    if (events_.empty() || log_.channel(entry) != events_) return false;
-    log_.Read(entry, &bytes);
-    if (!DecodeChecked(bytes.data(), bytes.size(), &first)) return false;
-    events.clear();
-    AppendEvents(first, &events);
+  ForFirstAndLast(&log_, events_, [this](const std::vector<std::uint8_t>& bytes, bool first) {
+    event_packet_t packet;
+    EventArray events;
+    if (DecodeChecked(bytes.data(), bytes.size(), &packet)) AppendEvents(packet, &events);
     if (events.size() == 0) return false;
-    (at_begin ? begin_ : end_) = at_begin ? events.t.front() : events.t.back();
+    (first ? begin_ : end_) = first ? events.t.front() : events.t.back();
     return true;
-  };
-  for (auto entry = log_.entries().begin(); entry != log_.entries().end() && !stamp(*entry, true);) ++entry;
-  for (auto entry = log_.entries().rbegin(); entry != log_.entries().rend() && !stamp(*entry, false);)
-    ++entry;
+  });
+  ForFirstAndLast(&log_, imu_, [this](const std::vector<std::uint8_t>& bytes, bool first) {
+    imu_batch_t batch;
+    if (!DecodeChecked(bytes.data(), bytes.size(), &batch) || batch.n == 0) return false;
+    (first ? imu_begin_ : imu_end_) = first ? SamplesOf(batch).front().t : SamplesOf(batch).back().t;
+    return true;
+  });
 }
 
 void RecordedData::Read(double seconds, const Sinks& sinks) {

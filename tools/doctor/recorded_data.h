@@ -21,6 +21,8 @@ class RecordedData {
   /// us, the events' clock, of the first and the last message of events; 0 where there is none.
   Utime begin() const { return begin_; }
   Utime end() const { return end_; }
+  /// From the first to the last IMU sample; 0 where there is none.
+  double imu_seconds() const { return ToSeconds(imu_end_ - imu_begin_); }
 
   struct Sinks {
     std::function<void(const EventArray&)> events;
@@ -36,7 +38,7 @@ class RecordedData {
  private:
   LogReader log_;
   std::string events_, imu_;  // channels; empty: the log has none
-  Utime begin_ = 0, end_ = 0;
+  Utime begin_ = 0, end_ = 0, imu_begin_ = 0, imu_end_ = 0;
   std::int64_t malformed_ = 0;
 };
 

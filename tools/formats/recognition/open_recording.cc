@@ -84,7 +84,8 @@ std::unique_ptr<MessageStore> OpenBags(const std::vector<std::string>& paths) {
     else
       bags.push_back(std::make_unique<RosbagStore>(std::vector<std::string>{path}));
   }
-  return bags.size() == 1 ? std::move(bags.front()) : std::make_unique<BagFolder>(std::move(bags));
+  if (bags.size() == 1) return std::move(bags.front());
+  return std::make_unique<BagFolder>(std::move(bags));
 }
 
 }  // namespace

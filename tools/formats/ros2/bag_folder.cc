@@ -101,6 +101,7 @@ void BagFolder::SortByTime() {
   }
   std::sort(order.begin(), order.end());
   std::vector<std::unique_ptr<MessageStore>> sorted;
+  sorted.reserve(order.size());
   for (const auto& [begin, k] : order) sorted.push_back(std::move(parts_[k]));
   parts_ = std::move(sorted);
 }
