@@ -27,7 +27,7 @@ struct Bench {
   static constexpr Utime kInterval = 20'000;
   test::Room room;
   Rig rig;
-  ViewRenderer renderer{test::Room().Map(0.012), 1, test::Room::kDark};
+  ViewRenderer renderer{test::Room().Map(0.012), test::Room::kDark};
   PhotometricTracker tracker;
   std::int64_t seq = 0;
   PhotometricView before;

@@ -19,7 +19,7 @@ class ViewRenderer {
  public:
   /// Intensities get `dark` added before the logarithm, so that black is not infinitely dark. However many
   /// `threads` there are, views are the same to the bit.
-  explicit ViewRenderer(const PhotometricMap& map, int threads = 1, double dark = kDark)
+  explicit ViewRenderer(const PhotometricMap& map, double dark = kDark, int threads = 1)
       : dark_(static_cast<float>(dark)), threads_(threads), cells_(map) {}
   static constexpr double kDark = 0.012;
 

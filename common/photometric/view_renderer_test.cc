@@ -26,7 +26,7 @@ ViewQuery QueryAt(const SE3& T_map_body) {
 // Against a cast ray for each pixel.
 TEST(ViewRenderer, SeesWhatRaysSee) {
   const test::Room room;
-  ViewRenderer renderer(room.Map(0.01), 1, test::Room::kDark);
+  ViewRenderer renderer(room.Map(0.01), test::Room::kDark);
   EXPECT_NEAR(renderer.spacing(), 0.01, 1e-3);
   for (const SE3& pose : kPoses) {
     const ViewQuery query = QueryAt(pose);
@@ -102,7 +102,7 @@ TEST(ViewRenderer, NothingInViewIsNothing) {
 }
 
 TEST(ViewRenderer, DepthsOutsideTheRangeAreNotSeenAndTheSameQueryGivesTheSameBitsOnAnyThreads) {
-  ViewRenderer renderer(test::Room().Map(0.02)), two_threads(test::Room().Map(0.02), 2);
+  ViewRenderer renderer(test::Room().Map(0.02)), two_threads(test::Room().Map(0.02), ViewRenderer::kDark, 2);
   ViewQuery query = QueryAt({});
   PhotometricView first, second;
   renderer.Render(query, &first);

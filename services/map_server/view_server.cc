@@ -23,7 +23,7 @@ ViewServer::ViewServer(Bus* bus, const Channels& channels, StatusReporter* statu
       status_(status),
       queries_(status, "VIEW_QUERY"),
       dropped_(&status->Counter("VIEW_QUERY.dropped")),
-      renderer_(map, kThreads) {
+      renderer_(map, ViewRenderer::kDark, kThreads) {
   bus_->Subscribe(channels.view_query, [this](const std::string&, const std::uint8_t* data,
                                               std::size_t size) { OnQuery(data, size); });
   status_->Counter("photometric_map.points") = static_cast<std::int64_t>(renderer_.size());
