@@ -162,28 +162,31 @@ class Neighbours {
 }  // namespace
 
 DenoiseSettings DenoiseSettingsFor(const PointMap& map, double spacing) {
-  // On five real maps and eleven simulated ones, with points 2 to 10 mm apart, 2 to 2.5 times their distance
-  // is best (docs/results/trials.md). Bundles are some millimetres wide however densely they are sampled;
-  // wider radii than the largest have not been tried.
-  constexpr double kTimesSpacing = 2.5, kLeast = 0.01, kMost = 0.04;  // -, m, m
+  // A compromise over five real maps and eleven simulated ones, with points 2 to 10 mm apart
+  // (docs/results/trials.md): real maps would have less, simulated ones, whose points are noisier, more.
+  // Bundles are some millimetres wide however densely they are sampled; wider radii have not been tried.
+  constexpr double kTimesSpacing = 2.5, kLeast = 0.01, kMost = 0.025;  // -, m, m
   DenoiseSettings settings;
   if (map.attributes.empty()) settings.radius = std::clamp(kTimesSpacing * spacing, kLeast, kMost);
   return settings;
 }
 
-std::size_t Denoise(const DenoiseSettings& settings, PointMap* map) {
-  if (map->points.empty() || settings.radius <= 0) return 0;
+DenoiseSummary Denoise(const DenoiseSettings& settings, PointMap* map) {
+  DenoiseSummary summary;
+  if (map->points.empty() || settings.radius <= 0) return summary;
   Neighbours neighbours(map->points, settings.radius);
   std::vector<Eigen::Vector3f> moved(map->points.size());
   std::vector<std::int64_t> n(map->points.size());
   neighbours.MoveAll(&moved, &n);
-  std::size_t n_moved = 0;
   for (std::size_t i = 0; i < moved.size(); ++i) {
     if (n[i] < settings.min_neighbours) continue;
     map->points[i] = moved[i];
-    ++n_moved;
+    ++summary.n_moved;
   }
-  return n_moved;
+  const bool dense = 2 * summary.n_moved >= n.size();
+  if (dense) KeepIf(map, [&n](std::size_t i) { return n[i] > 1; });
+  summary.n_dropped = n.size() - map->points.size();
+  return summary;
 }
 
 }  // namespace evit

@@ -11,6 +11,11 @@ struct DenoiseSettings {
   int min_neighbours = 5;  // including the point itself; with fewer it stays as it is
 };
 
+struct DenoiseSummary {
+  std::size_t n_moved = 0;
+  std::size_t n_dropped = 0;
+};
+
 /// For this map, whose points have `spacing` (m, MapSummary::median_spacing): a radius that reaches a usual
 /// point's next neighbours along its edge and across the bundle of points around it, and no farther, as the
 /// next edge is another one. A map that knows its points' sigmas gets none: `evit map build` has thinned it.
@@ -18,8 +23,9 @@ DenoiseSettings DenoiseSettingsFor(const PointMap& map, double spacing);
 
 /// Thins the bundle of points that many noisy views leave around each edge: a point moves onto the line
 /// through its neighbours (their weighted mean and principal direction: one step of moving least squares), so
-/// that a tracker's few thousand points know what all points of the map know. Keeps number and order of
-/// points. Same map, same result. Radius 0: leaves all as it is. Returns how many points were moved.
-std::size_t Denoise(const DenoiseSettings& settings, PointMap* map);
+/// that a tracker's few thousand points know what all points of the map know. Points without any neighbour
+/// are left out where most have enough of them: strays, which would make the map seem larger than it is.
+/// Keeps the order of points. Same map, same result. Radius 0: leaves all as it is.
+DenoiseSummary Denoise(const DenoiseSettings& settings, PointMap* map);
 
 }  // namespace evit

@@ -45,7 +45,7 @@ TEST(Denoise, MovesPointsOntoTheEdgesTheyComeFrom) {
   std::vector<Eigen::Vector3f> truth;
   PointMap map = NoisyEdges(0.003, 0.001, &truth);
   const double before = ErrorAcross(map, truth);
-  EXPECT_EQ(Denoise(kSettings, &map), truth.size());
+  EXPECT_EQ(Denoise(kSettings, &map).n_moved, truth.size());
   ASSERT_EQ(map.points.size(), truth.size());
   EXPECT_LT(ErrorAcross(map, truth), 0.4 * before);
 }
@@ -57,15 +57,20 @@ TEST(Denoise, LeavesCleanEdgesWhereTheyAre) {
   EXPECT_LT(ErrorAcross(map, truth), 1e-5);
 }
 
-TEST(Denoise, LeavesLonelyPointsWhereTheyAre) {
+TEST(Denoise, DropsStraysOfADenseMapOnly) {
   std::vector<Eigen::Vector3f> truth;
-  PointMap map = NoisyEdges(0.001, 0.001, &truth);
-  map.points.emplace_back(0, 0, 0);
-  EXPECT_EQ(Denoise(kSettings, &map), truth.size());
-  EXPECT_EQ(map.points.back(), Eigen::Vector3f(0, 0, 0));
+  PointMap dense = NoisyEdges(0.001, 0.001, &truth);
+  dense.points.emplace_back(0, 0, 0);
+  EXPECT_EQ(Denoise(kSettings, &dense).n_dropped, 1U);
+  EXPECT_EQ(dense.points.size(), truth.size());
+
+  truth.clear();
+  PointMap sparse = NoisyEdges(0.001, 0.03, &truth);
+  EXPECT_EQ(Denoise(kSettings, &sparse).n_dropped, 0U);
+  EXPECT_EQ(sparse.points.size(), truth.size());
 }
 
-// Two edges 2 cm apart, each point less than that from the next: what a camera sees of a book's back.
+// Two edges 2 cm apart, each point less than that from the next: as of a book's spine.
 TEST(Denoise, ARadiusThatFollowsTheSpacingDoesNotMergeNeighbouringEdges) {
   std::mt19937 random(7);
   std::normal_distribution<float> gauss(0, 0.001F);
@@ -93,7 +98,7 @@ TEST(Denoise, RadiusFollowsTheSpacingWithinBounds) {
   PointMap map = NoisyEdges(0.003, 0.001, &truth);
   EXPECT_DOUBLE_EQ(DenoiseSettingsFor(map, 0.006).radius, 0.015);
   EXPECT_DOUBLE_EQ(DenoiseSettingsFor(map, 0).radius, 0.01);
-  EXPECT_DOUBLE_EQ(DenoiseSettingsFor(map, 0.3).radius, 0.04);
+  EXPECT_DOUBLE_EQ(DenoiseSettingsFor(map, 0.3).radius, 0.025);
   map.attributes.resize(map.points.size());  // it knows its sigmas
   EXPECT_EQ(DenoiseSettingsFor(map, 0.006).radius, 0);
 }
@@ -104,25 +109,28 @@ TEST(Denoise, CrowdsAndFarPointsDoNotHoldItUp) {
   PointMap map;
   for (int i = 0; i < 100'000; ++i) map.points.emplace_back(gauss(random), gauss(random), gauss(random));
   map.points.emplace_back(1e30F, -1e30F, 1e9F);
-  EXPECT_EQ(Denoise(kSettings, &map), 100'000U);  // minutes where each point asks each other
-  EXPECT_EQ(map.points.back(), Eigen::Vector3f(1e30F, -1e30F, 1e9F));
+  // Minutes where each point asks each other.
+  EXPECT_EQ(Denoise(kSettings, &map).n_dropped, 1U);
+  EXPECT_EQ(map.points.size(), 100'000U);
 }
 
 TEST(Denoise, StraysThatShareACellDoNotSpoilEachOther) {
   PointMap map;
   for (int k = 0; k < 8; ++k) map.points.emplace_back(1e30F, 0, 0);
   map.points.emplace_back(3e38F, 0, 0);
-  const std::vector<Eigen::Vector3f> before = map.points;
-  EXPECT_EQ(Denoise(kSettings, &map), 8U);
-  EXPECT_EQ(map.points, before);
+  const std::vector<Eigen::Vector3f> eight(map.points.begin(), map.points.end() - 1);
+  EXPECT_EQ(Denoise(kSettings, &map).n_moved, 8U);
+  EXPECT_EQ(map.points, eight);
 }
 
 TEST(Denoise, EmptyMapsAndNoRadiusAreFine) {
   PointMap map;
-  EXPECT_EQ(Denoise(kSettings, &map), 0U);
-  map.points.emplace_back(1, 2, 3);
-  EXPECT_EQ(Denoise({}, &map), 0U);
-  EXPECT_EQ(map.points.size(), 1U);
+  EXPECT_EQ(Denoise(kSettings, &map).n_moved, 0U);
+  std::vector<Eigen::Vector3f> truth;
+  map = NoisyEdges(0.003, 0.001, &truth);
+  const std::vector<Eigen::Vector3f> before = map.points;
+  EXPECT_EQ(Denoise({}, &map).n_moved, 0U);
+  EXPECT_EQ(map.points, before);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "common/map/denoise.h"
 #include "common/map/map_file.h"
 #include "tests/helpers/map_files.h"
 

@@ -32,7 +32,7 @@ float SpacingOf(const std::vector<Eigen::Vector3f>& points) {
 }
 
 // Of the cell: x, y and z, 21 bits each, 250 km either way.
-std::uint64_t KeyOf(const Eigen::Vector3f& point) {
+std::uint64_t CellKeyOf(const Eigen::Vector3f& point) {
   constexpr std::uint64_t kMiddle = 1U << 20U;
   std::uint64_t key = 0;
   for (int k = 0; k < 3; ++k) {
@@ -106,7 +106,7 @@ PhotometricCells::PhotometricCells(const PhotometricMap& map) : n_(map.points.si
   if (n_ == 0) return;
   spacing_ = SpacingOf(map.points);
   std::vector<std::pair<std::uint64_t, std::size_t>> order(n_);  // cell and point
-  for (std::size_t k = 0; k < n_; ++k) order[k] = {KeyOf(map.points[k]), k};
+  for (std::size_t k = 0; k < n_; ++k) order[k] = {CellKeyOf(map.points[k]), k};
   std::sort(order.begin(), order.end());
   for (const auto& [key, k] : order) {
     x_.push_back(map.points[k].x());

@@ -24,7 +24,8 @@ bool PhotometricFactor::Evaluate(double const* const* parameters, double* residu
   const Eigen::Matrix<double, 12, 1> root = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
   const Eigen::Matrix<double, 12, 12> J = root.asDiagonal() * solver.eigenvectors().transpose();
   const Eigen::Matrix<double, 12, 1> g = solver.eigenvectors().transpose() * term.gradient;
-  const double floor = 1e-9 * root.maxCoeff();
+  // Roots of eigenvalues that are nothing but the rounding of sums in single precision.
+  const double floor = 3e-4 * root.maxCoeff();
   for (int k = 0; k < 12; ++k) r[k] = root[k] > floor ? g[k] / root[k] : 0.0;
   r[12] = std::sqrt(std::max(0.0, 2 * term.cost - r.head<12>().squaredNorm()));
   if (jacobians[0] != nullptr) {

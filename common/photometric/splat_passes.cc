@@ -28,7 +28,7 @@ struct SquareLanes {
   alignas(64) std::int32_t x0[kLanes], x1[kLanes], y0[kLanes], y1[kLanes];
 
   EVIT_ALWAYS_INLINE void Set(const Splats& s, std::size_t k, float at_1m, float least, int width,
-                              Rows rows) {
+                              ImageRows rows) {
     const float *x = s.x() + k, *y = s.y() + k, *depth = s.depth() + k;
     for (int l = 0; l < kLanes; ++l) {
       const float wanted = at_1m * (1 / depth[l]), most = wanted < kLargest ? wanted : kLargest;
@@ -50,7 +50,7 @@ struct SquareLanes {
   }
 };
 
-EVIT_MULTIVERSION void FillAll(const Splats& splats, float patch, const PaddedImage& image, Rows rows,
+EVIT_MULTIVERSION void FillAll(const Splats& splats, float patch, const PaddedImage& image, ImageRows rows,
                                float* depth) {
   const FourInts columns = {0, 1, 2, 3};
   const Four nothing = {kNoDepth, kNoDepth, kNoDepth, kNoDepth};
@@ -71,7 +71,7 @@ EVIT_MULTIVERSION void FillAll(const Splats& splats, float patch, const PaddedIm
   }
 }
 
-EVIT_MULTIVERSION void BlendAll(const Splats& splats, float reach, const PaddedImage& image, Rows rows,
+EVIT_MULTIVERSION void BlendAll(const Splats& splats, float reach, const PaddedImage& image, ImageRows rows,
                                 float* sums) {
   SquareLanes square;
   for (std::size_t k = 0; k < splats.size(); k += kLanes) {
@@ -100,7 +100,7 @@ EVIT_MULTIVERSION void BlendAll(const Splats& splats, float reach, const PaddedI
 
 }  // namespace
 
-void FillDepth(const std::vector<Splats>& splats, float patch, const PaddedImage& image, Rows rows,
+void FillDepth(const std::vector<Splats>& splats, float patch, const PaddedImage& image, ImageRows rows,
                std::vector<float>* depth) {
   const std::ptrdiff_t stride = image.stride();
   std::fill(depth->begin() + rows.begin * stride, depth->begin() + rows.end * stride, kNoDepth);
@@ -108,7 +108,7 @@ void FillDepth(const std::vector<Splats>& splats, float patch, const PaddedImage
 }
 
 void BlendSplats(const std::vector<Splats>& splats, float reach, const PaddedImage& image,
-                 const std::vector<float>& depth, Rows rows, SplatSums* sums) {
+                 const std::vector<float>& depth, ImageRows rows, SplatSums* sums) {
   for (int y = rows.begin; y < rows.end; ++y) {
     const float* seen = depth.data() + static_cast<std::ptrdiff_t>(y) * image.stride();
     float* pixel = sums->Row(y, image.width);

@@ -22,7 +22,7 @@ struct PaddedImage {
 };
 
 /// Rows [begin, end) of an image: what one thread draws.
-struct Rows {
+struct ImageRows {
   int begin, end;
 };
 
@@ -37,12 +37,12 @@ struct SplatSums {
 
 /// Depth (m) of the nearest patch of each pixel, in some rows. `patch`: pixels * m, half of a patch's side at
 /// 1 m. `depth`: of the image's size.
-void FillDepth(const std::vector<Splats>& splats, float patch, const PaddedImage& image, Rows rows,
+void FillDepth(const std::vector<Splats>& splats, float patch, const PaddedImage& image, ImageRows rows,
                std::vector<float>* depth);
 
 /// Adds each splat to the pixels around it whose depth is its own, by a tent, in some rows. `reach`: pixels *
 /// m, the tent's radius at 1 m; at least a pixel. `sums`: of width * height pixels.
 void BlendSplats(const std::vector<Splats>& splats, float reach, const PaddedImage& image,
-                 const std::vector<float>& depth, Rows rows, SplatSums* sums);
+                 const std::vector<float>& depth, ImageRows rows, SplatSums* sums);
 
 }  // namespace evit

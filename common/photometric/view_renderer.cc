@@ -33,7 +33,7 @@ void ViewRenderer::Render(const ViewQuery& query, PhotometricView* view) {
   depth_.resize(image.size());
   sums_.numbers.resize(SplatSums::kNumbers * n);
   // Of the map first, then of the image: all splats are there before the first row is drawn.
-  const auto in_rows = [&](const std::function<void(Rows)>& work) {
+  const auto in_rows = [&](const std::function<void(ImageRows)>& work) {
     ParallelFor(threads, threads, [&](int k) {
       work({k * image.height / threads, (k + 1) * image.height / threads});
     });
@@ -42,9 +42,9 @@ void ViewRenderer::Render(const ViewQuery& query, PhotometricView* view) {
     const auto part = static_cast<std::size_t>(k);
     cells_.Project(query, part, splats_.size(), &splats_[part]);
   });
-  in_rows([&](Rows rows) { FillDepth(splats_, 0.75F * side, image, rows, &depth_); });
+  in_rows([&](ImageRows rows) { FillDepth(splats_, 0.75F * side, image, rows, &depth_); });
   scratch_ = depth_;
-  in_rows([&](Rows rows) {
+  in_rows([&](ImageRows rows) {
     CloseLeaks(image, rows);
     BlendSplats(splats_, 1.2F * side, image, depth_, rows, &sums_);
     TakeMeans(image, rows, view);
@@ -54,7 +54,7 @@ void ViewRenderer::Render(const ViewQuery& query, PhotometricView* view) {
 
 // A pixel amid a nearer surface, at least six of its eight neighbours, is a gap between that surface's
 // points. From the depths before, in scratch_.
-void ViewRenderer::CloseLeaks(const PaddedImage& image, Rows rows) {
+void ViewRenderer::CloseLeaks(const PaddedImage& image, ImageRows rows) {
   const std::ptrdiff_t stride = image.stride();
   for (int y = std::max(1, rows.begin); y < std::min(rows.end, image.height - 1); ++y) {
     for (int x = 1; x + 1 < image.width; ++x) {
@@ -76,7 +76,7 @@ void ViewRenderer::CloseLeaks(const PaddedImage& image, Rows rows) {
 }
 
 // Weighted mean of the points on the surface that each pixel sees.
-void ViewRenderer::TakeMeans(const PaddedImage& image, Rows rows, PhotometricView* view) const {
+void ViewRenderer::TakeMeans(const PaddedImage& image, ImageRows rows, PhotometricView* view) const {
   for (int y = rows.begin; y < rows.end; ++y) {
     const float* pixel = sums_.Row(y, image.width);
     const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width);

@@ -31,8 +31,8 @@ class ViewRenderer {
   float spacing() const { return cells_.spacing(); }
 
  private:
-  void CloseLeaks(const PaddedImage& image, Rows rows);
-  void TakeMeans(const PaddedImage& image, Rows rows, PhotometricView* view) const;
+  void CloseLeaks(const PaddedImage& image, ImageRows rows);
+  void TakeMeans(const PaddedImage& image, ImageRows rows, PhotometricView* view) const;
   void FillHoles(const Camera& camera, PhotometricView* view);
 
   float dark_;

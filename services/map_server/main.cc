@@ -10,14 +10,16 @@
 namespace {
 
 std::string Describe(const evit::LoadedMap& loaded, const evit::MapSummary& summary,
-                     const evit::DenoiseSettings& denoise, std::size_t n_moved) {
+                     const evit::DenoiseSettings& denoise, const evit::DenoiseSummary& denoised) {
   char text[240];
-  std::snprintf(text, sizeof text,
-                "%zu points (%s), %.1f x %.1f x %.1f m, spacing %.4f m; thinned within %.4f m: %zu moved",
+  std::snprintf(text, sizeof text, "%zu points (%s), %.1f x %.1f x %.1f m, spacing %.4f m; ",
                 summary.n_points, loaded.format.c_str(), summary.max.x() - summary.min.x(),
-                summary.max.y() - summary.min.y(), summary.max.z() - summary.min.z(), summary.median_spacing,
-                denoise.radius, n_moved);
-  return text;
+                summary.max.y() - summary.min.y(), summary.max.z() - summary.min.z(), summary.median_spacing);
+  std::string description = text;
+  if (denoise.radius <= 0) return description + "as read";
+  std::snprintf(text, sizeof text, "thinned within %.4f m: %zu moved, %zu left out", denoise.radius,
+                denoised.n_moved, denoised.n_dropped);
+  return description + text;
 }
 
 int Main(int argc, char** argv) {
@@ -30,9 +32,9 @@ int Main(int argc, char** argv) {
   line.Add("--photometric-map", &photometric_path, "PLY with intensities (evit map photometric), for EVPT");
   double radius = -1;
   line.Add("--denoise-radius", &radius,
-           "Points move onto the line through their neighbours within this, m; 0: as read. Left out: 2.5 "
-           "times "
-           "the points' spacing, and as read where the map has sigmas (evit map build thins its maps itself)")
+           "Points move onto the line through their neighbours within this, m; 0: as read. Left out: "
+           "2.5 times the points' spacing (0.01 to 0.025), and as read where the map has sigmas (evit map "
+           "build thins its maps itself)")
       .Range(0.0, 0.2);
   bool places = false;
   line.AddFlag(

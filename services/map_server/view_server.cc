@@ -10,7 +10,7 @@
 namespace evit {
 namespace {
 
-constexpr std::size_t kMaxQueuedViews = 4;  // views take 10 ms each: old answers help nobody
+constexpr std::size_t kMaxQueuedViews = 4;  // views take some 10 ms each: old answers help nobody
 constexpr int kMaxPixels = 640 * 512;       // a message of 1.3 MB, and the time to draw it
 // The tracker waits for its view: meanwhile a second processor has nothing to do.
 constexpr int kThreads = 2;
