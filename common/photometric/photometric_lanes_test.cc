@@ -25,7 +25,8 @@ TEST(PhotometricLanes, ReadTheEventImageAsItsPlainReferenceDoes) {
     int inside = 0;
     for (int n = 0; n < 2000; ++n) {
       const int level = n % 2;
-      const Eigen::Vector3d along((x(random) - camera.cx) / camera.fx, (y(random) - camera.cy) / camera.fy, 1);
+      const Eigen::Vector3d along((x(random) - camera.cx) / camera.fx, (y(random) - camera.cy) / camera.fy,
+                                  1);
       const bool behind = n % 10 == 9;
       const Eigen::Vector3d point = behind ? Eigen::Vector3d(-2 * along) : Eigen::Vector3d(2 * along);
       const std::vector<Eigen::Vector3f> points(static_cast<std::size_t>(1 + n % 3), point.cast<float>());
