@@ -1,6 +1,7 @@
 #include "common/calibration/overlap_calibration.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>

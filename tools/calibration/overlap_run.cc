@@ -45,6 +45,7 @@ std::vector<Row> Rows(const Rig& before, const OverlapCalibration& c) {
   const Eigen::Vector3d turn =
       kDegreesPerRadian * LogSO3(before.T_body_camera.q.conjugate() * c.T_body_camera.q);
   std::vector<Row> rows;
+  rows.reserve(7);
   for (int k = 0; k < 3; ++k) {
     rows.push_back({FormatText("T_body_camera %c [mm]", kAxes[k]), 1e3 * before.T_body_camera.p[k],
                     1e3 * c.T_body_camera.p[k], 1e3 * sigma(k)});

@@ -44,7 +44,7 @@ diagnosis::EventExcerpts Excerpts(const RecordedData& data, const Rig& rig, cons
                                 data.begin() + static_cast<Utime>(1e6 * seconds)}) -
                       kReach;
     for (int k = 0; k < kExcerpts && end > begin; ++k)
-      instants.push_back(begin + (end - begin) * (2 * k + 1) / (2 * kExcerpts));
+      instants.push_back(begin + (end - begin) * (Utime{2} * k + 1) / (Utime{2} * kExcerpts));
   }
   return {std::move(instants), kReach};
 }

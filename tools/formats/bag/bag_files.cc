@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "common/text/format_text.h"
+
 namespace evit::formats {
 namespace {
 
@@ -61,7 +63,8 @@ std::vector<BagPart> BagFiles::Parts() const {
 
 std::string BagFiles::Topics() const {
   std::vector<std::string> topics;
-  for (const auto& [topic, type] : types_) topics.push_back(topic + " (" + type + ")");
+  for (const auto& [topic, type] : types_)
+    topics.push_back(FormatText("%s (%s)", topic.c_str(), type.c_str()));
   return topics.empty() ? "none" : Join(topics, ", ");
 }
 
