@@ -236,7 +236,10 @@ Findings CheckEvents(const EventCensus& events) {
   for (Finding& finding :
        Findings{Gaps(events), HotPixels(events), DeadPixels(events), CheckFlicker(events), Noise(events)})
     found.push_back(std::move(finding));
-  if (whole) found.push_back(CheckDeadArea(events)), found.push_back(CheckDeadLines(events));
+  if (whole) {
+    found.push_back(CheckDeadArea(events));
+    found.push_back(CheckDeadLines(events));
+  }
   return found;
 }
 

@@ -27,7 +27,7 @@ MeanMotion ByPoses(const Trajectory& truth, Utime begin, Utime end) {
     turning += LogSO3(a.q.conjugate() * b.q).squaredNorm(), speed += (b.p - a.p).squaredNorm(), ++n;
   }
   if (n == 0) return motion;
-  motion.turning = std::sqrt(turning / n) / ToSeconds(kMotionStep),
+  motion.turning = std::sqrt(turning / n) / ToSeconds(kMotionStep);
   motion.speed = std::sqrt(speed / n) / ToSeconds(kMotionStep);
   motion.seconds = n * ToSeconds(kMotionStep);
   motion.by_poses = true;
@@ -42,8 +42,8 @@ MeanMotion ByImu(const std::vector<ImuSample>& samples) {
     std::size_t end = begin;
     for (; end < samples.size() && samples[end].t < samples[begin].t + kMotionStep; ++end)
       gyro += samples[end].gyro, accel += samples[end].accel;
-    gyros.push_back(gyro / static_cast<double>(end - begin)),
-        accels.push_back(accel / static_cast<double>(end - begin));
+    gyros.push_back(gyro / static_cast<double>(end - begin));
+    accels.push_back(accel / static_cast<double>(end - begin));
     begin = end;
   }
   const auto n = static_cast<double>(gyros.size());
@@ -82,9 +82,8 @@ Finding CheckMotion(const std::vector<ImuSample>& samples, const Trajectory& tru
   if (!slow) return Good("motion", figure);
   return {"motion", view < kVerySlowTurn ? Severity::kError : Severity::kWarning, figure,
           "The motion is too slow: edges that hardly move make few events, of which noise is a large part.",
-          "move the rig faster, a quarter of a metre or a quarter of a turn in a few seconds; what only "
-          "stands still is "
-          "no recording to track"};
+          "move the rig faster, a quarter of a metre or a quarter of a turn in a few seconds; a recording "
+          "that only stands still cannot be tracked"};
 }
 
 }  // namespace evit::diagnosis

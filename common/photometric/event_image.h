@@ -20,7 +20,8 @@ class EventImage {
     float value;   // of log intensity
     float gx, gy;  // per sensor pixel
   };
-  /// At a sensor pixel. Outside the image nothing has happened.
+  /// At a sensor pixel. Outside the image nothing has happened. Plainly written: the tracker's loops
+  /// (photometric_lanes.h) read the same in vector code, and are tested against this.
   Sample At(int level, double x, double y) const;
 
   int levels() const { return static_cast<int>(pyramid_.size()); }

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <utility>
+
+#include "common/map/cell_order.h"
 
 namespace evit {
 namespace {
 
-constexpr float kCell = 0.25F;  // m
+constexpr double kCell = 0.25;  // m
 
 // From the number of points around some 100 of them. Distances to the nearest would be far too small: points
 // of neighbouring voxels may lie close together.
@@ -29,17 +29,6 @@ float SpacingOf(const std::vector<Eigen::Vector3f>& points) {
     if (*middle < 0.5F * radius) return *middle;  // enough points for a figure
   }
   return spacings[spacings.size() / 2];
-}
-
-// Of the cell: x, y and z, 21 bits each, 250 km either way.
-std::uint64_t CellKeyOf(const Eigen::Vector3f& point) {
-  constexpr std::uint64_t kMiddle = 1U << 20U;
-  std::uint64_t key = 0;
-  for (int k = 0; k < 3; ++k) {
-    const float cell = std::clamp(std::floor(point[k] / kCell), -1e6F, 1e6F);
-    key = (key << 21U) | (kMiddle + static_cast<std::uint64_t>(static_cast<std::int64_t>(cell)));
-  }
-  return key;
 }
 
 // A pinhole without distortion, in single precision.
@@ -105,25 +94,21 @@ EVIT_MULTIVERSION void ProjectCell(const Pinhole& view, const float* x, const fl
 PhotometricCells::PhotometricCells(const PhotometricMap& map) : n_(map.points.size()) {
   if (n_ == 0) return;
   spacing_ = SpacingOf(map.points);
-  std::vector<std::pair<std::uint64_t, std::size_t>> order(n_);  // cell and point
-  for (std::size_t k = 0; k < n_; ++k) order[k] = {CellKeyOf(map.points[k]), k};
-  std::sort(order.begin(), order.end());
-  for (const auto& [key, k] : order) {
-    x_.push_back(map.points[k].x());
-    y_.push_back(map.points[k].y());
-    z_.push_back(map.points[k].z());
-    intensity_.push_back(map.intensities[k]);
-  }
-  for (std::size_t begin = 0; begin < n_;) {
-    std::size_t end = begin;
-    Eigen::Vector3f low(x_[begin], y_[begin], z_[begin]), high = low;
-    for (; end < n_ && order[end].first == order[begin].first; ++end) {
-      const Eigen::Vector3f p(x_[end], y_[end], z_[end]);
+  const CellOrder order(map.points, kCell);
+  for (std::size_t begin = 0, end = 0; begin < n_; begin = end) {
+    end = order.EndOfCell(begin);
+    Eigen::Vector3f low = map.points[static_cast<std::size_t>(order[begin].index)], high = low;
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto index = static_cast<std::size_t>(order[k].index);
+      const Eigen::Vector3f& p = map.points[index];
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
+      x_.push_back(p.x());
+      y_.push_back(p.y());
+      z_.push_back(p.z());
+      intensity_.push_back(map.intensities[index]);
     }
     cells_.push_back({0.5F * (low + high), 0.5F * (high - low).norm(), begin, end});
-    begin = end;
   }
   for (std::vector<float>* v : {&x_, &y_, &z_, &intensity_}) v->resize(n_ + kLanes);
 }

@@ -31,8 +31,6 @@ class FolderPass : public MessagePass {
       pass_ = parts_[next_++]->Read(topics_);
     }
   }
-  bool cut_off() const override { return loss_.cut_off; }
-  double lost_share() const override { return loss_.share; }
   Loss LossOf(const std::string& topic) const override {
     const auto found = losses_.find(topic);
     return found != losses_.end() ? found->second : Loss{};
@@ -49,15 +47,14 @@ class FolderPass : public MessagePass {
   }
   // At the end of a part: what it lost counts as its share of those that hold the topic.
   void NoteLoss(const MessageStore& part) {
-    loss_.cut_off = loss_.cut_off || pass_->cut_off();
-    loss_.share += pass_->lost_share() / static_cast<double>(parts_.size());
     for (const std::string& topic : topics_) {
       if (!Has(part, topic)) continue;
       const auto n = std::count_if(parts_.begin(), parts_.end(),
                                    [&](const MessageStore* other) { return Has(*other, topic); });
       Loss& loss = losses_[topic];
-      loss.cut_off = loss.cut_off || pass_->cut_off();
-      loss.share += pass_->lost_share() / static_cast<double>(n);
+      const Loss of_part = pass_->LossOf(topic);
+      loss.cut_off = loss.cut_off || of_part.cut_off;
+      loss.share += of_part.share / static_cast<double>(n);
     }
   }
 
@@ -65,7 +62,6 @@ class FolderPass : public MessagePass {
   std::set<std::string> topics_;
   std::unique_ptr<MessagePass> pass_;
   std::size_t next_ = 0;
-  Loss loss_;
   std::map<std::string, Loss> losses_;  // of each topic
 };
 
