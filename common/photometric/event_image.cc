@@ -23,7 +23,7 @@ EventImage::Sample EventImage::At(int level, double x, double y) const {
   const double scale = 1.0 / (2 << level);  // its pixel 0 is the mean of the first 2^(level+1)
   const double u = (x + 0.5) * scale - 0.5, v = (y + 0.5) * scale - 0.5;
   if (!(u > 1 && v > 1 && u < image.cols - 2 && v < image.rows - 2)) return {0, 0, 0};
-  const int cu = static_cast<int>(u + 0.5), cv = static_cast<int>(v + 0.5);
+  const int cu = static_cast<int>(std::lround(u)), cv = static_cast<int>(std::lround(v));
   const auto a = static_cast<float>(u - cu), b = static_cast<float>(v - cv);  // -0.5 .. 0.5
   const float wx[3] = {0.5F * (0.5F - a) * (0.5F - a), 0.75F - a * a, 0.5F * (0.5F + a) * (0.5F + a)};
   const float wy[3] = {0.5F * (0.5F - b) * (0.5F - b), 0.75F - b * b, 0.5F * (0.5F + b) * (0.5F + b)};

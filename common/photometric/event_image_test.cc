@@ -85,8 +85,8 @@ TEST(GradientPoints, LieOnTheWallsWithTheirGradient) {
 TEST(GradientPoints, WhereNothingIsSeenThereIsNoEdge) {
   PhotometricView view;
   view.query.camera = ViewCamera(test::EventCamera(), 0);
-  view.log_intensity.assign(160 * 120, -1);
-  view.inverse_depth.assign(160 * 120, 0.5F);
+  view.log_intensity.assign(std::size_t{160} * 120, -1);
+  view.inverse_depth.assign(std::size_t{160} * 120, 0.5F);
   for (int y = 0; y < 120; ++y) {
     for (int x = 60; x < 90; ++x) view.log_intensity[160 * y + x] = 0, view.inverse_depth[160 * y + x] = 0;
   }
