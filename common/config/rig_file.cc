@@ -12,6 +12,7 @@
 #include "common/config/rig.pb.h"
 #include "common/config/text_file.h"
 #include "common/files/whole_file.h"
+#include "common/geometry/degrees.h"
 
 namespace evit {
 namespace {
@@ -47,6 +48,21 @@ SE3 ToSE3(const RigText& rig, const config::Transform& t, const std::string& nam
   rig.Require((m.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() < 1e-9, field,
               "the last row must be 0 0 0 1");
   return SE3(m);
+}
+
+// Zero where there are no numbers.
+Eigen::Vector3d ToSigma(const RigText& rig, const google::protobuf::RepeatedField<double>& numbers,
+                        const std::string& name) {
+  if (numbers.empty()) return Eigen::Vector3d::Zero();
+  rig.Require(numbers.size() == 3, "T_body_camera_sigma." + name,
+              "3 numbers are expected (x, y, z), got " + std::to_string(numbers.size()));
+  return Eigen::Map<const Eigen::Vector3d>(numbers.data());
+}
+
+ExtrinsicsSigma ToExtrinsicsSigma(const RigText& rig) {
+  const config::TransformSigma& sigma = rig.message.t_body_camera_sigma();
+  return {ToSigma(rig, sigma.rotation_deg(), "rotation_deg") / kDegreesPerRadian,
+          ToSigma(rig, sigma.translation_m(), "translation_m")};
 }
 
 // As of an Azure Kinect, or of OpenCV's CALIB_RATIONAL_MODEL.
@@ -114,6 +130,19 @@ std::string TransformText(const char* name, const SE3& T) {
   return out + "}\n";
 }
 
+std::string NumbersText(const Eigen::Vector3d& v) {
+  return "[" + NumberText(v.x()) + ", " + NumberText(v.y()) + ", " + NumberText(v.z()) + "]";
+}
+
+// Nothing where it is known exactly.
+std::string SigmaText(const ExtrinsicsSigma& sigma) {
+  if (sigma.rotation.isZero(0) && sigma.translation.isZero(0)) return "";
+  return "\n# Standard deviations of T_body_camera.\nT_body_camera_sigma {\n  rotation_deg: " +
+         NumbersText(kDegreesPerRadian * sigma.rotation) +
+         "  # about the camera's axes\n  translation_m: " + NumbersText(sigma.translation) +
+         "  # along the body's axes\n}\n";
+}
+
 std::string MarkerText(const SE3& T_marker_body) {
   return "# Body to the frame that the ground truth describes, row-major 4x4.\n" +
          TransformText("T_marker_body", T_marker_body);
@@ -165,6 +194,7 @@ Rig LoadRig(const std::string& path) {
   rig.camera = ToCamera(text);
   rig.camera_time_offset = std::llround(message.camera().time_offset_us());
   rig.T_body_camera = ToSE3(text, message.t_body_camera(), "T_body_camera");
+  rig.T_body_camera_sigma = ToExtrinsicsSigma(text);
   if (message.has_t_marker_body()) rig.T_marker_body = ToSE3(text, message.t_marker_body(), "T_marker_body");
   rig.imu_rate_hz = message.imu().rate_hz();
   rig.imu_noise = ToImuNoise(message.imu());
@@ -209,7 +239,7 @@ void WriteRig(const std::string& path, const Rig& rig, const std::string& name, 
   text << CommentText(comment) << "name: " << Quoted(name) << "\n\n"
        << CameraText(rig.camera, rig.camera_time_offset) << '\n'
        << ImuText(rig.imu_rate_hz, rig.imu_noise) << "\n# Event camera to body (= IMU), row-major 4x4.\n"
-       << TransformText("T_body_camera", rig.T_body_camera) << '\n'
+       << TransformText("T_body_camera", rig.T_body_camera) << SigmaText(rig.T_body_camera_sigma) << '\n'
        << MarkerText(rig.T_marker_body) << "\ngravity: " << NumberText(rig.gravity)
        << "  # m/s^2, along -z of the map frame\n";
   WholeFile file(path);

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "tests/helpers/config_files.h"
 #include "tests/helpers/paths.h"
 
 namespace evit {
@@ -14,6 +15,7 @@ TEST(RigFile, ReadsBackAsItWasWritten) {
   const std::string path = ::testing::TempDir() + "/rig_" + std::to_string(getpid()) + ".textproto";
   Rig rig = LoadRig(test::SourcePath("config/vector/rig.textproto"));
   rig.camera_time_offset = -2'400;
+  rig.T_body_camera_sigma = {{0.0123, 0.004, 0}, {0, 0.002, 0.0031}};
   for (const auto model : {Camera::Model::kPlumbBob, Camera::Model::kEquidistant}) {
     rig.camera.model = model;
     WriteRig(path, rig, "a \"quoted\" \\ name", "first line\nsecond line");
@@ -36,10 +38,16 @@ TEST(RigFile, ReadsBackAsItWasWritten) {
     EXPECT_EQ(back.imu_noise.accel_range, rig.imu_noise.accel_range);
     EXPECT_TRUE(back.T_body_camera.R().isApprox(rig.T_body_camera.R(), 1e-12));
     EXPECT_EQ(back.T_body_camera.p, rig.T_body_camera.p);
+    EXPECT_TRUE(back.T_body_camera_sigma.rotation.isApprox(rig.T_body_camera_sigma.rotation, 1e-15));
+    EXPECT_EQ(back.T_body_camera_sigma.translation, rig.T_body_camera_sigma.translation);
     EXPECT_TRUE(back.T_marker_body.R().isApprox(rig.T_marker_body.R(), 1e-12));
     EXPECT_EQ(back.T_marker_body.p, rig.T_marker_body.p);
     EXPECT_EQ(back.gravity, rig.gravity);
   }
+  rig.T_body_camera_sigma = {};
+  WriteRig(path, rig, "exact", "");
+  EXPECT_EQ(test::ReadText(path).find("sigma"), std::string::npos);
+  EXPECT_EQ(LoadRig(path).T_body_camera_sigma.rotation, Eigen::Vector3d::Zero());
   std::filesystem::remove(path);
   EXPECT_THROW(WriteRig("/no/such/rig.textproto", rig, "", ""), std::runtime_error);
 }

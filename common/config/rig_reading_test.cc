@@ -81,6 +81,33 @@ TEST_F(RigReading, TransformationsMustBeRigid) {
   ExpectEditRefused("  m: [0, 0, 0, 1]\n}", "}", "", {"T_body_camera.m", "16 numbers", "12"});
 }
 
+constexpr char kSigma[] = "rotation_deg: [0.8, 0.8, 0.8]";
+
+TEST_F(RigReading, ExtrinsicsAreExactlyKnownUnlessTheirStandardDeviationsAreGiven) {
+  const auto load = [&](const std::string& sigma) {
+    return LoadRig(Write("rig.textproto", Edited(test::ReadText(kRig), kSigma, sigma))).T_body_camera_sigma;
+  };
+  const ExtrinsicsSigma exact = load(""), turned = load("rotation_deg: [0.5, 1, 2]"),
+                        moved = load("translation_m: [0.001, 0, 0.002]");
+  EXPECT_EQ(exact.rotation.norm() + exact.translation.norm(), 0);
+  EXPECT_NEAR(turned.rotation.z(), 2 * kRadiansPerDegree, 1e-15);
+  EXPECT_NEAR(turned.rotation.x(), 0.5 * kRadiansPerDegree, 1e-15);
+  EXPECT_EQ(turned.translation.norm() + moved.rotation.norm(), 0);
+  EXPECT_EQ(moved.translation, Eigen::Vector3d(0.001, 0, 0.002));
+}
+
+TEST_F(RigReading, ImpossibleStandardDeviationsAreRefused) {
+  ExpectEditRefused(kSigma, "rotation_deg: [0.8, -0.8, 0.8]", ":39",
+                    {"T_body_camera_sigma.rotation_deg", "-0.8", "0 to 20 deg"});
+  ExpectEditRefused(kSigma, "rotation_deg: [0.8, 80, 0.8]", ":39", {"80 is out of range", "0 to 20 deg"});
+  ExpectEditRefused(kSigma, "rotation_deg: [0.8, nan, 0.8]", ":39", {"T_body_camera_sigma.rotation_deg"});
+  ExpectEditRefused(kSigma, "rotation_deg: 0.8", ":39",
+                    {"T_body_camera_sigma.rotation_deg", "3 numbers are expected (x, y, z), got 1"});
+  ExpectEditRefused(kSigma, "translation_m: [2, 2, 2]", ":39",  // millimetres
+                    {"T_body_camera_sigma.translation_m", "0 to 1 m"});
+  ExpectEditRefused(kSigma, "rotation: [1, 1, 1]", ":39", {"no such key", "rotation_deg"});
+}
+
 // A left-handed or transposed rotation is the classic mistake of a hand-copied calibration.
 TEST_F(RigReading, AMirroredRotationIsRefused) {
   ExpectEditRefused("[0.0188022409695, -0.999589203474, 0.0216309970154,",

@@ -74,11 +74,13 @@ void Flatten(const std::string& file, const std::string& parent, const Message& 
   reflection->ListFields(message, &fields);
   for (const FieldDescriptor* field : fields) {
     const int n = field->is_repeated() ? reflection->FieldSize(message, field) : 1;
+    int line = -1;
     for (int k = 0; k < n; ++k) {
       const int index = field->is_repeated() ? k : -1;
       const std::string path = parent + field->name();
-      out->push_back(
-          {path, ValueOf(message, field, k), field, file, places->GetLocation(field, index).line + 1});
+      // Of a list in brackets, the parser knows the first number's line alone.
+      if (const int found = places->GetLocation(field, index).line; found >= 0) line = found;
+      out->push_back({path, ValueOf(message, field, k), field, file, line + 1});
       if (field->cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE) continue;
       const Message& part = field->is_repeated() ? reflection->GetRepeatedMessage(message, field, k)
                                                  : reflection->GetMessage(message, field);

@@ -34,9 +34,20 @@ Finding Intrinsics(const Camera& c) {
   return Good("intrinsics", figure);
 }
 
+// Largest of the axes; nothing where the rig file says nothing.
+std::string KnownText(const ExtrinsicsSigma& sigma) {
+  const double degrees = kDegreesPerRadian * sigma.rotation.maxCoeff();
+  const double mm = 1e3 * sigma.translation.maxCoeff();
+  std::string text;
+  if (degrees > 0) text = FormatText("%.2f deg", degrees);
+  if (mm > 0) text += (text.empty() ? "" : " and ") + FormatText("%.1f mm", mm);
+  return text.empty() ? text : ", known to " + text;
+}
+
 Finding Extrinsics(const Rig& rig) {
   const double distance = rig.T_body_camera.p.norm();
-  const std::string figure = FormatText("camera %.1f cm from the IMU", 100 * distance);
+  const std::string figure =
+      FormatText("camera %.1f cm from the IMU", 100 * distance) + KnownText(rig.T_body_camera_sigma);
   if (distance > 0.6) {
     return {"extrinsics", distance > 3 ? Severity::kError : Severity::kWarning, figure,
             FormatText("T_body_camera puts the camera %.3g m from the IMU.", distance),

@@ -18,10 +18,17 @@ struct ImuNoise {
   double accel_range = std::numeric_limits<double>::infinity();  // m/s^2
 };
 
+/// How well T_body_camera is known: standard deviations, axis by axis. Zero: exactly.
+struct ExtrinsicsSigma {
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     // rad, about the camera's axes
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  // m, along the body's axes
+};
+
 /// Calibration of one event camera with one IMU. The body frame is the IMU's.
 struct Rig {
   Camera camera;
   SE3 T_body_camera;
+  ExtrinsicsSigma T_body_camera_sigma;
   SE3 T_marker_body;  // body in the frame of the motion-capture marker body; identity where there is none
   ImuNoise imu_noise;
   double imu_rate_hz = 0;

@@ -104,7 +104,9 @@ void WriteBody(const Rig& rig, const std::string& rig_name, const SimulatedImu& 
   WriteImuFile(folder.File(base + ".imu.txt"), imu);
   WriteGroundTruthFile(folder.File(base + ".gt.txt"), summary->name, motion, rig);
   WriteTruth(folder.File("truth.tum"), motion, imu);
-  WriteRig(folder.File("rig.textproto"), rig, rig_name, "The rig that was simulated (evit simulate).");
+  Rig exact = rig;
+  exact.T_body_camera_sigma = {};  // as well as it is known elsewhere: this is the truth
+  WriteRig(folder.File("rig.textproto"), exact, rig_name, "The rig that was simulated (evit simulate).");
   summary->n_imu = imu.samples.size();
   summary->first_bias = imu.biases.front();
   summary->last_bias = imu.biases.back();

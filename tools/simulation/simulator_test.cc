@@ -100,6 +100,12 @@ TEST_F(SimulatorTest, SameSeedGivesSameSequenceWithAnyThreads) {
   EXPECT_NE(Text(folder_ / "a" / "map.pcd"), Text(folder_ / "c" / "map.pcd"));
 }
 
+TEST_F(SimulatorTest, ASimulatedRigIsKnownExactly) {
+  rig_.T_body_camera_sigma.rotation.setConstant(0.01);
+  Simulate(settings_, rig_, "test", nullptr);
+  EXPECT_EQ(Text(folder_ / "a" / "rig.textproto").find("sigma"), std::string::npos);
+}
+
 // What an importer does with the marker's poses gives the body's.
 TEST_F(SimulatorTest, GroundTruthLeadsToTheBody) {
   Simulate(settings_, rig_, "test", nullptr);
