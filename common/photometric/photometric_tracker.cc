@@ -107,7 +107,7 @@ void PhotometricTracker::Accept(const PhotometricFrame& frame, double after_even
                 SystematicCovariance(solution.information, 0, options_.map_sigma_m) +
                 TimeOffsetCovariance(state_.velocity, state_.T_map_body.q.conjugate() * rate_,
                                      1e-6 * options_.stamp_sigma_us);
-  out->covariance = covariance_;
+  out->covariance = covariance_ + ExtrinsicsCovariance(state_.T_map_body, rig_);
   out->nodes.push_back({frame.t, frame.seq, state_});
 }
 
@@ -134,9 +134,10 @@ void PhotometricTracker::Coast(const PhotometricFrame& frame, const SE3& predict
   Vector6d unknown;
   unknown << Eigen::Vector3d::Constant(bad * options_.photometric.sigma_velocity),
       Eigen::Vector3d::Constant(bad * options_.photometric.sigma_rate);
-  out->covariance = covariance_ + Matrix6d(unknown.cwiseAbs2().asDiagonal());
+  const Matrix6d by_map = covariance_ + Matrix6d(unknown.cwiseAbs2().asDiagonal());
+  out->covariance = by_map + ExtrinsicsCovariance(state_.T_map_body, rig_);
   out->information.setIdentity();
-  out->information.topLeftCorner<6, 6>() = out->covariance.inverse();
+  out->information.topLeftCorner<6, 6>() = by_map.inverse();
   out->nodes.push_back({frame.t, frame.seq, state_});
 }
 

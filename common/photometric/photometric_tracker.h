@@ -50,7 +50,8 @@ class PhotometricTracker {
   BodyState state_;                                 // velocity: of the body's origin, map frame
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s, map frame
   double image_speed_ = 0;                          // pixels/s, 0: unknown
-  Matrix6d covariance_ = Matrix6d::Identity();      // of the last good frame's pose
+  Matrix6d covariance_ = Matrix6d::Identity();      // of the last good frame's pose,
+                                                    // with exact extrinsics
   Utime state_time_ = 0, good_time_ = 0, last_interval_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/photometric/view_renderer.h"
+#include "common/tracking/pose_covariance.h"
 #include "tests/helpers/photometric_room.h"
 
 namespace evit {
@@ -38,8 +39,9 @@ struct Bench {
     rig.T_body_camera = test::BodyCamera();
     return rig;
   }
-  explicit Bench(const SE3& start, const PhotometricTrackerOptions& options = Options())
-      : rig(MakeRig()), tracker(rig, options, start) {}
+  explicit Bench(const SE3& start, const PhotometricTrackerOptions& options = Options(),
+                 const Rig& with_rig = MakeRig())
+      : rig(with_rig), tracker(rig, options, start) {}
 
   static SE3 Truth(Utime t) {
     const double s = ToSeconds(t);
@@ -108,6 +110,19 @@ TEST(PhotometricTracker, LateEventsCountAlongTheMotionInTheBodysFrame) {
   const double of_rotation = late.bottomRightCorner<3, 3>().trace();
   const Eigen::Vector3d turned = moved.tail<3>().normalized();
   EXPECT_GT(turned.dot(late.bottomRightCorner<3, 3>() * turned), 0.9 * of_rotation);
+}
+
+TEST(PhotometricTracker, UncertainExtrinsicsAreReportedAndChangeNoPose) {
+  Rig rig = Bench::MakeRig();
+  rig.T_body_camera_sigma = {{0.01, 0.02, 0.03}, {0.003, 0.001, 0.002}};
+  const SE3 start = Bench::Truth(1'000'000);
+  Bench exact(start), uncertain(start, Options(), rig);
+  for (Utime t = 1'000'000; t <= 1'200'000; t += Bench::kInterval) {
+    const TrackerOutput a = exact.Step(t), b = uncertain.Step(t);
+    const SE3& pose = b.nodes.back().state.T_map_body;
+    EXPECT_EQ(a.nodes.back().state.T_map_body.p, pose.p);
+    EXPECT_LT((b.covariance - a.covariance - ExtrinsicsCovariance(pose, rig)).norm(), 1e-12);
+  }
 }
 
 TEST(PhotometricTracker, TheSameInputGivesTheSameBits) {

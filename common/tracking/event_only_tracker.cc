@@ -17,7 +17,8 @@ constexpr int kPatience = 150;               // frames that do not fit before it
 }  // namespace
 
 EventOnlyTracker::EventOnlyTracker(const Rig& rig, const TrackerOptions& options, const SE3& T_map_body)
-    : options_(options),
+    : rig_(rig),
+      options_(options),
       alignment_(MakeAlignmentSettings(rig, options.window)),
       points_(rig, alignment_, options.points, options.lag_px),
       uncertainty_(rig.camera, options.window) {
@@ -82,7 +83,8 @@ TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
     out.information.topLeftCorner<6, 6>() = alignment;
     out.information.bottomRightCorner<9, 9>().setIdentity();
     uncertainty_.SetAlignment(alignment, MeasureMisfit(alignment_, field, points, fit.T_map_body));
-    out.covariance = uncertainty_.Covariance(PoseCovariance(out.information), state_.velocity, rate_);
+    out.covariance = uncertainty_.Covariance(PoseCovariance(out.information), state_.velocity, rate_) +
+                     ExtrinsicsCovariance(state_.T_map_body, rig_);
     out.nodes.push_back({keyframe.t, keyframe.seq, state_});
     out.has_pose = true;
     out.image_speed = MedianImageSpeed(alignment_, points, state_.T_map_body, state_.velocity, rate_);

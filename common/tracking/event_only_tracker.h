@@ -40,6 +40,7 @@ class EventOnlyTracker final : public MapTracker {
   void Accept(const KeyframeInput& keyframe, double seconds, const SE3& T_map_body);
   void Reject();
 
+  Rig rig_;
   TrackerOptions options_;
   AlignmentSettings alignment_;
   PointSelector points_;

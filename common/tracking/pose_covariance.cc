@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/so3.h"
 #include "common/tracking/state_matrices.h"
 
 namespace evit {
@@ -59,6 +60,20 @@ Matrix6d TimeOffsetCovariance(const Eigen::Vector3d& velocity, const Eigen::Vect
   Vector6d moved;
   moved << sigma * velocity, sigma * rate;
   return moved * moved.transpose();
+}
+
+// With T_map_camera fixed, T_body_camera = (R Exp(φ), p + δ) puts the body at
+//   R_map_body Exp(-R φ),   p_map_camera - R_map_body Exp(-R φ) (p + δ),
+// to first order p_map_body - R_map_body (δ + p x R φ).
+Matrix6d ExtrinsicsCovariance(const SE3& T_map_body, const Rig& rig) {
+  const Eigen::Matrix3d R_map_body = T_map_body.R(), R_body_camera = rig.T_body_camera.R();
+  Matrix6d J = Matrix6d::Zero();  // by δ (m, body frame) and φ (rad, camera frame)
+  J.topLeftCorner<3, 3>() = -R_map_body;
+  J.topRightCorner<3, 3>() = -R_map_body * Hat(rig.T_body_camera.p) * R_body_camera;
+  J.bottomRightCorner<3, 3>() = -R_body_camera;
+  Vector6d sigma;
+  sigma << rig.T_body_camera_sigma.translation, rig.T_body_camera_sigma.rotation;
+  return J * sigma.cwiseAbs2().asDiagonal() * J.transpose();
 }
 
 Matrix6d WindowCovariance(const Matrix15d& information) { return kAsOne * PoseCovariance(information); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/geometry/rig.h"
 #include "common/tracking/alignment_misfit.h"
 #include "common/tracking/state.h"
 #include "common/tracking/tracker_options.h"
@@ -27,6 +28,11 @@ Matrix6d MisfitCovariance(const AlignmentMisfit& misfit, double share, double fo
 /// latency, s.
 Matrix6d TimeOffsetCovariance(const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate, double sigma);
 
+/// Effect on the body's pose of an error of the rig's T_body_camera, of which T_body_camera_sigma tells. It
+/// is the same during a whole run. Map and events determine the camera's pose; the body's is
+/// T_map_camera * inverse(T_body_camera).
+Matrix6d ExtrinsicsCovariance(const SE3& T_map_body, const Rig& rig);
+
 /// Covariance of the pose of a state from all keyframes of a window, whose inverse covariance `information`
 /// takes them as independent. They are not: each sees the edges that the last one saw, so velocity and biases
 /// are off with the pose, and an estimate that the IMU alone carries drifts away faster than `information`
@@ -36,7 +42,8 @@ Matrix6d WindowCovariance(const Matrix15d& information);
 /// The same of velocity (m/s, map frame) and gyro bias (rad/s).
 Matrix6d MotionCovariance(const Matrix15d& information);
 
-/// The sum of these, which the trackers report.
+/// The sum of these but for ExtrinsicsCovariance: how well the pose is known with exact extrinsics. The
+/// trackers decide by it, and report it with ExtrinsicsCovariance added.
 class PoseUncertainty {
  public:
   PoseUncertainty(const Camera& camera, const WindowOptions& options)

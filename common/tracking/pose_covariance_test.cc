@@ -5,6 +5,8 @@
 #include <Eigen/LU>
 #include <random>
 
+#include "common/geometry/so3.h"
+
 namespace evit {
 namespace {
 
@@ -83,6 +85,35 @@ TEST(PoseCovariance, LateEventsSpreadPosesAlongTheMotion) {
   const Matrix6d claimed = TimeOffsetCovariance(velocity, rate, kSigma);
   EXPECT_LT((claimed - spread).norm(), 0.03 * spread.norm());
   EXPECT_EQ(TimeOffsetCovariance(velocity, rate, 0).norm(), 0);
+}
+
+// A tracker that uses T_body_camera finds the camera where it is, and the body elsewhere.
+TEST(PoseCovariance, WrongExtrinsicsMoveTheBodyAndNotTheCamera) {
+  Rig rig;
+  rig.T_body_camera = SE3(ExpSO3({-1.2, 1.1, -1.3}), {0.13, 0.08, -0.25});
+  rig.T_body_camera_sigma = {{0.014, 0.02, 0.007}, {0.002, 0.005, 0.001}};
+  const SE3 T_map_body(ExpSO3({0.3, -1.1, 0.4}), {1, 2, 3});
+  const SE3 T_map_camera = T_map_body * rig.T_body_camera;
+  Matrix6d expected = Matrix6d::Zero();
+  for (int k = 0; k < 6; ++k) {
+    constexpr double kStep = 1e-5;
+    Vector6d by[2];
+    for (const int sign : {-1, 1}) {
+      Vector6d wrong = Vector6d::Zero();
+      wrong[k] = sign * kStep;
+      const SE3 T_body_camera(rig.T_body_camera.q * ExpSO3(wrong.tail<3>()),
+                              rig.T_body_camera.p + wrong.head<3>());
+      const SE3 body = T_map_camera * T_body_camera.Inverse();
+      by[(sign + 1) / 2] << body.p - T_map_body.p, LogSO3(T_map_body.q.conjugate() * body.q);
+    }
+    const Vector6d slope = (by[1] - by[0]) / (2 * kStep);
+    const double sigma =
+        k < 3 ? rig.T_body_camera_sigma.translation[k] : rig.T_body_camera_sigma.rotation[k - 3];
+    expected += sigma * sigma * slope * slope.transpose();
+  }
+  EXPECT_LT((ExtrinsicsCovariance(T_map_body, rig) - expected).norm(), 1e-8 * expected.norm());
+  rig.T_body_camera_sigma = {};
+  EXPECT_EQ(ExtrinsicsCovariance(T_map_body, rig).norm(), 0);
 }
 
 }  // namespace

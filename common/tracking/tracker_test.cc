@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/tracking/pose_covariance.h"
 #include "tests/helpers/tracking_bench.h"
 
 namespace evit {
@@ -137,6 +138,44 @@ TEST(Tracker, LateEventsCountAlongTheMotion) {
   moved << motion.State(ToSeconds(t)).velocity, motion.Imu(t, {}).gyro;
   moved *= kSigma;
   EXPECT_LT((with - without - moved * moved.transpose()).norm(), 0.1 * moved.squaredNorm());
+}
+
+// Until it is lost: nothing that a tracker decides may go by how well the extrinsics are known.
+TEST(Tracker, UncertainExtrinsicsAreReportedAndChangeNoPose) {
+  Rig rig = TestRig();
+  rig.T_body_camera_sigma = {{0.01, 0.02, 0.03}, {0.3, 0.1, 0.2}};  // beyond the limit of the position
+  const auto other = synthetic::RoomPoints(60, 99);
+  for (const bool event_only : {false, true}) {
+    TrackerOptions options = TestOptions();
+    options.event_only = event_only;
+    Utime t = 1'000'000;
+    const SE3 start = Motion().State(ToSeconds(t)).T_map_body;
+    Bench exact(options, start), uncertain(options, start, rig);
+    constexpr int kInMap = 60, kMost = 150;
+    int reported = 0, coasted = 0;
+    for (int k = 0; k < kMost && exact.tracker->mode() != TrackerMode::kLost; ++k) {
+      t += event_only ? 3'333 : exact.tracker->mode() == TrackerMode::kTracking ? 25'000 : 10'000;
+      const auto& seen = k < kInMap ? exact.room : other;
+      const TrackerOutput a = exact.Step(t, seen), b = uncertain.Step(t, seen);
+      ASSERT_EQ(a.mode, b.mode) << k;
+      ASSERT_EQ(a.reason, b.reason) << k;
+      ASSERT_EQ(a.useful_interval, b.useful_interval) << k;
+      ASSERT_EQ(a.information, b.information) << k;
+      ASSERT_EQ(a.nodes.size(), b.nodes.size()) << k;
+      if (a.nodes.empty()) continue;
+      const SE3& pose = b.nodes.back().state.T_map_body;
+      ASSERT_EQ(a.nodes.back().state.T_map_body.p, pose.p) << k;
+      ASSERT_EQ(a.nodes.back().state.T_map_body.q.coeffs(), pose.q.coeffs()) << k;
+      if (a.mode != TrackerMode::kTracking) continue;
+      ASSERT_LT((b.covariance - a.covariance - ExtrinsicsCovariance(pose, rig)).norm(), 1e-9) << k;
+      ++reported;
+      coasted += k < kInMap ? 0 : 1;
+      if (event_only && k == kInMap) break;  // it does not coast
+    }
+    EXPECT_EQ(exact.tracker->mode(), event_only ? TrackerMode::kTracking : TrackerMode::kLost);
+    EXPECT_GT(reported, 20);
+    EXPECT_GT(coasted, event_only ? -1 : 5);
+  }
 }
 
 }  // namespace

@@ -55,7 +55,11 @@ void WindowTracker::SetUncertainty(const WindowNode& newest) {
 
 void WindowTracker::ReportUncertainty(const Eigen::Vector3d& rate, TrackerOutput* out) const {
   out->information = window_.NewestInformation();
-  out->covariance = uncertainty_.Covariance(WindowCovariance(out->information), state().velocity, rate);
+  out->covariance = CovarianceByMap(out->information, rate) + ExtrinsicsCovariance(state().T_map_body, rig_);
+}
+
+Matrix6d WindowTracker::CovarianceByMap(const Matrix15d& information, const Eigen::Vector3d& rate) const {
+  return uncertainty_.Covariance(WindowCovariance(information), state().velocity, rate);
 }
 
 Matrix6d WindowTracker::SystematicUncertainty(const Eigen::Vector3d& rate) const {
@@ -162,7 +166,7 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
                    : !impossible.empty() ? impossible
                    : !wrong.empty()      ? wrong
                    : rival               ? "another pose explains the events better"
-                                         : WhyLost(result, out->covariance);
+                                         : WhyLost(result, CovarianceByMap(out->information, rate));
   result.restart = newest.state;
   if (!impossible.empty()) {
     // It has diverged: the prediction from the state before is the better place to look.
@@ -216,8 +220,8 @@ bool WindowTracker::StandsStill(const KeyframeInput& keyframe, const Eigen::Vect
     started_gently_ = gentle_start_.Seen(reading->accel, ToSeconds(Interval()));
     return !started_gently_;
   }
-  const Matrix6d covariance = uncertainty_.Covariance(WindowCovariance(information), state().velocity, rate);
-  if (PositionSigma(covariance) > kKnown * options_.failure.max_position_sigma_m) return false;
+  if (PositionSigma(CovarianceByMap(information, rate)) > kKnown * options_.failure.max_position_sigma_m)
+    return false;
   gentle_start_.Begin(reading->accel);
   return true;
 }

@@ -63,6 +63,9 @@ class WindowTracker {
  private:
   void ForgetMotion();  // before a start: what later keyframes may not rely on
   void SetUncertainty(const WindowNode& newest);
+  // Of the newest pose with exact extrinsics. What is decided goes by it: an error of the extrinsics neither
+  // grows while the IMU alone carries the pose nor makes the map harder to find.
+  Matrix6d CovarianceByMap(const Matrix15d& information, const Eigen::Vector3d& rate) const;
   WindowNode PredictedNode(const KeyframeInput& keyframe, const Eigen::Vector3d& rate) const;
   std::string WhyCoast(const KeyframeInput& keyframe, const AlignmentQuality& quality,
                        double significance) const;

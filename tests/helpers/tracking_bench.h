@@ -69,7 +69,8 @@ struct KeyframeSource {
 struct Bench : KeyframeSource {
   std::unique_ptr<MapTracker> tracker;
 
-  Bench(const TrackerOptions& options, const SE3& start) : tracker(MakeTracker(TestRig(), options, start)) {}
+  Bench(const TrackerOptions& options, const SE3& start, const Rig& rig = TestRig())
+      : tracker(MakeTracker(rig, options, start)) {}
 
   TrackerOutput Step(Utime t, const std::vector<Eigen::Vector3f>& seen_points) {
     const VisibilityQuery query = tracker->NextQuery();
