@@ -19,12 +19,12 @@ constexpr std::size_t kFewestViews = 10;
 constexpr std::int64_t kFewestEvents = 200;  // pixels that fired in a view: fewer say nothing
 constexpr std::size_t kStretches = 12;       // of the recording, for the spread of the gradient
 constexpr int kMaxIterations = 30;
-constexpr double kConverged = 1e-5;                              // m, rad, s
-constexpr double kMaxRotation = 0.007, kMaxOffsetSigma = 0.002;  // rad, s: beyond, not observable
+constexpr double kConverged = 1e-5;                       // m, rad, s
+constexpr double kMostTurn = 0.007, kMostOffset = 0.002;  // rad, s: beyond, not observable
 constexpr double kMinKappa = 0.05;  // of the overlap found, beyond chance; a wrong map has 0
 
-constexpr double kHold = 1e12;            // information: a micrometre, a microsecond
-constexpr std::size_t kSearchViews = 30;  // of the search, spread over the recording
+constexpr double kHoldInformation = 1e12;  // information: a micrometre, a microsecond
+constexpr std::size_t kSearchViews = 30;   // of the search, spread over the recording
 
 Matrix PriorInformation(const OverlapCalibrationOptions& o) {
   Vector sigma;
@@ -141,14 +141,14 @@ bool HoldUnobservable(const OverlapCalibration::Covariance& P, Matrix* prior,
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(P.block<3, 3>(3, 3));
   for (int k = 2; k >= 0; --k) {
     const double sigma = std::sqrt(std::max(0.0, axes.eigenvalues()[k]));
-    if (sigma <= kMaxRotation) continue;
+    if (sigma <= kMostTurn) continue;
     const Eigen::Vector3d axis = axes.eigenvectors().col(k);
     out->push_back({Unobservable::Value::kRotation, axis, sigma});
-    prior->block<3, 3>(3, 3) += kHold * axis * axis.transpose();
+    prior->block<3, 3>(3, 3) += kHoldInformation * axis * axis.transpose();
   }
-  if (const double sigma = std::sqrt(P(6, 6)); sigma > kMaxOffsetSigma) {
+  if (const double sigma = std::sqrt(P(6, 6)); sigma > kMostOffset) {
     out->push_back({Unobservable::Value::kTimeOffset, Eigen::Vector3d::Zero(), sigma});
-    (*prior)(6, 6) += kHold;
+    (*prior)(6, 6) += kHoldInformation;
     return true;
   }
   return false;
@@ -168,7 +168,8 @@ OverlapCalibration CalibrateByOverlap(const std::vector<MapView>& all, const Tra
   const OverlapCost::Values before{rig.T_body_camera, ToSeconds(rig.camera_time_offset), options.lag_px};
   const Matrix prior_all = PriorInformation(options);
   Matrix prior = prior_all;
-  for (const int held : {0, 1, 2, 6, 7}) prior(held, held) = kHold;  // while it is far from the minimum
+  for (const int held : {0, 1, 2, 6, 7})
+    prior(held, held) = kHoldInformation;  // while it is far from the minimum
   const double coarse = 2 * options.blur_px;
   OverlapCost::Values values;
   {

@@ -9,8 +9,9 @@
 namespace evit {
 namespace {
 
-constexpr Utime kShortest = 40'000, kLongest = 80'000;  // us: of an interval; shorter ones are all noise
-constexpr Utime kCoarse = 2'000, kFine = 100;           // us: steps of the search
+constexpr Utime kShortestInterval = 40'000,
+                kLongestInterval = 80'000;     // us: of an interval; shorter ones are all noise
+constexpr Utime kCoarse = 2'000, kFine = 100;  // us: steps of the search
 constexpr int kFewest = 20;
 
 struct Interval {
@@ -23,10 +24,11 @@ std::vector<Interval> Intervals(const Trajectory& camera) {
   std::size_t j = 0;
   for (std::size_t i = 0; i < camera.size(); ++i) {
     j = std::max(j, i);
-    while (j < camera.size() && camera[j].t - camera[i].t < kShortest) ++j;
+    while (j < camera.size() && camera[j].t - camera[i].t < kShortestInterval) ++j;
     if (j == camera.size()) break;
-    if (camera[j].t - camera[i].t > kLongest) continue;                                    // a hole
-    if (!intervals.empty() && camera[i].t - intervals.back().a < kShortest / 4) continue;  // says it all over
+    if (camera[j].t - camera[i].t > kLongestInterval) continue;  // a hole
+    if (!intervals.empty() && camera[i].t - intervals.back().a < kShortestInterval / 4)
+      continue;  // says it all over
     const double dt = ToSeconds(camera[j].t - camera[i].t);
     intervals.push_back(
         {camera[i].t, camera[j].t, LogSO3(camera[i].pose.q.conjugate() * camera[j].pose.q) / dt});

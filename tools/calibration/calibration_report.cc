@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "common/calibration/calibrated_sigma.h"
 #include "common/geometry/degrees.h"
 #include "common/text/format_text.h"
 
@@ -86,6 +87,8 @@ std::string Sentence(const Unobservable& u) {
 Rig Calibrated(const Rig& before, const CameraImuCalibration& c) {
   Rig rig = before;
   rig.T_body_camera = c.values.T_body_camera;
+  rig.T_body_camera_sigma =
+      CalibratedSigma(c.covariance.topLeftCorner<6, 6>(), c.unobservable, before.T_body_camera_sigma);
   rig.camera_time_offset = c.values.offset;
   return rig;
 }
@@ -113,7 +116,8 @@ std::string CalibrationText(const Rig& before, const CameraImuCalibration& c) {
 
 std::string RigComment(const Rig& before, const CameraImuCalibration& c, const std::string& sources) {
   std::string text =
-      "T_body_camera and camera.time_offset_us by evit calibrate; all other values are unchanged.\n" +
+      "T_body_camera, its standard deviations and camera.time_offset_us by evit calibrate; all other values "
+      "are unchanged.\n" +
       sources + "\n";
   for (const Row& row : Rows(before, c)) {
     if (!row.in_rig) continue;

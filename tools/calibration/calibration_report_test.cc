@@ -60,6 +60,8 @@ TEST(CalibrationReport, RigFileHoldsWhatWasFoundAndWhereItIsFrom) {
   EXPECT_EQ(read.camera_time_offset, -4'321);
   EXPECT_LT((read.T_body_camera.p - Found().values.T_body_camera.p).norm(), 1e-12);
   EXPECT_LT(AngularDistance(read.T_body_camera.q, Found().values.T_body_camera.q), 1e-7);
+  EXPECT_NEAR(read.T_body_camera_sigma.translation.x(), 1e-3, 1e-12);
+  EXPECT_NEAR(read.T_body_camera_sigma.rotation.y(), 1e-3, 1e-12);
   EXPECT_EQ(read.imu_noise.gyro_density, Before().imu_noise.gyro_density);
 }
 

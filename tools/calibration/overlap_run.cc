@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/calibration/calibrated_sigma.h"
 #include "common/geometry/degrees.h"
 #include "common/map/map_file.h"
 #include "common/text/format_text.h"
@@ -113,6 +114,15 @@ std::vector<MapView> ReadViews(const OverlapFiles& files, const Rig& rig, const 
   return views;
 }
 
+Rig Calibrated(const Rig& before, const OverlapCalibration& c) {
+  Rig rig = before;
+  rig.T_body_camera = c.T_body_camera;
+  rig.T_body_camera_sigma =
+      CalibratedSigma(c.covariance.topLeftCorner<6, 6>(), c.unobservable, before.T_body_camera_sigma);
+  rig.camera_time_offset = c.offset;
+  return rig;
+}
+
 std::string OverlapText(const Rig& before, const OverlapCalibration& c) {
   std::string text = FormatText("%lld views\n\n%-34s %10s %12s %10s\n", static_cast<long long>(c.after.views),
                                 "", "rig file", "calibrated", "sigma");
@@ -129,7 +139,8 @@ std::string OverlapText(const Rig& before, const OverlapCalibration& c) {
 
 std::string OverlapRigComment(const Rig& before, const OverlapCalibration& c, const std::string& sources) {
   std::string text =
-      "T_body_camera and camera.time_offset_us by evit calibrate --truth; all other values are unchanged.\n" +
+      "T_body_camera, its standard deviations and camera.time_offset_us by evit calibrate --truth; all other "
+      "values are unchanged.\n" +
       sources + "\n";
   for (const Row& row : Rows(before, c))
     text +=

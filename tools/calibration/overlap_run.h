@@ -28,6 +28,9 @@ std::vector<MapView> ReadViews(const OverlapFiles& files, const Rig& rig, const 
 /// The poses of the part asked for.
 Trajectory ReadTruth(const OverlapFiles& files);
 
+/// The rig with what was found in it.
+Rig Calibrated(const Rig& before, const OverlapCalibration& found);
+
 /// What was found, as a table, with the overlap before and after.
 std::string OverlapText(const Rig& before, const OverlapCalibration& found);
 /// The same as a rig file's comment. `sources`: which files it comes from.

@@ -138,6 +138,10 @@ TEST(OverlapText, SaysWhatWasFoundAndWhatTheMotionDoesNotShow) {
   EXPECT_THAT(OverlapRigComment(before, found, "From a.lcmlog."),
               AllOf(HasSubstr("From a.lcmlog."), HasSubstr("y [deg]: 1.146, was 0.000, sigma 0.057"),
                     HasSubstr("not observable: time offset")));
+  const Rig calibrated = Calibrated(before, found);
+  EXPECT_EQ(calibrated.T_body_camera.q.coeffs(), found.T_body_camera.q.coeffs());
+  EXPECT_NEAR(calibrated.T_body_camera_sigma.rotation.y(), 1e-3, 1e-12);
+  EXPECT_NEAR(calibrated.T_body_camera_sigma.translation.z(), 1e-3, 1e-12);
 }
 
 }  // namespace

@@ -74,10 +74,7 @@ void CalibrateWithTruth(const CalibrateOptions& o) {
   if (!found.success) throw std::runtime_error("not calibrated: " + found.reason);
   std::printf("%s", calibration::OverlapText(before, found).c_str());
   if (o.out.empty()) return;
-  Rig rig = before;
-  rig.T_body_camera = found.T_body_camera;
-  rig.camera_time_offset = found.offset;
-  WriteRig(o.out, rig, LoadRigName(o.job.rig),
+  WriteRig(o.out, calibration::Calibrated(before, found), LoadRigName(o.job.rig),
            calibration::OverlapRigComment(before, found,
                                           "From " + o.job.log + ", " + o.job.map + " and " + o.truth +
                                               ", starting from " + o.job.rig + "."));
