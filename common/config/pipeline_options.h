@@ -25,6 +25,17 @@ struct PipelineOptions {
   PhotometricOptions photometric;
 };
 
+/// The part that a tracker with a map of points needs (MakeTracker).
+inline TrackerOptions TrackerPart(const PipelineOptions& o) {
+  return {o.points,
+          o.window,
+          o.bootstrap,
+          o.failure,
+          o.keyframes.min_events,
+          o.surface.lag_px,
+          o.method == PipelineOptions::Method::kEvt};
+}
+
 /// What is in force where a settings file says nothing but the method. EVT predicts nothing, as in the paper.
 inline PipelineOptions DefaultsOf(PipelineOptions::Method method) {
   PipelineOptions options;

@@ -1,6 +1,7 @@
 #include "common/tracking/bootstrapper.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/geometry/degrees.h"
@@ -18,7 +19,15 @@ constexpr StartRange kFollow{0.01, 0.006, 3};  // constant velocity and gyro ove
 constexpr std::size_t kMaxFrames = 300;
 constexpr std::size_t kLongestDoubt = 100;  // frames of a chain that may be false, before it is given up
 constexpr int kRivalSearches = 3;  // before a start counts: one misses the right pose one time in eight
+constexpr double kMostRanges = 4;  // that rivals are looked for in
 constexpr int kPatience = 100;     // frames that do not fit before the start counts as failed
+
+// The distance of two poses, in ranges of a start search.
+double RangesBetween(const SE3& a, const SE3& b) {
+  return std::max((a.p - b.p).norm() / kStart.position, AngularDistance(a.q, b.q) / kStart.rotation);
+}
+
+bool Beats(const StartRival& rival) { return rival.distinct && rival.significance <= 0; }
 
 // What the window may believe of its first state: the accuracy of an event-only pose and of the alignment. Of
 // the biases what was known before: a tenth of a second of frames says nothing of them, and what the
@@ -41,6 +50,11 @@ Bootstrapper::Bootstrapper(const Rig& rig, const TrackerOptions& options, const 
     : rig_(rig), options_(options), alignment_(alignment), points_(points) {}
 
 void Bootstrapper::Start(const BodyState& state) {
+  off_ = 1;
+  Restart(state);
+}
+
+void Bootstrapper::Restart(const BodyState& state) {
   state_ = state;
   if (state.velocity.isZero()) {
     anchor_.Start(state.T_map_body);
@@ -98,6 +112,7 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
   // A single frame finds some minimum nearly anywhere; several in a row that agree with gyro and constant
   // velocity do not.
   result.status = Result::Status::kUnsure;
+  if (!unrivaled_) off_ = std::clamp(RangesBetween(fit.T_map_body, anchor_.pose()), off_, kMostRanges);
   if (!Found()) {
     if (frames_.size() >= kLongestDoubt) RejectFrame(&result);
     return result;
@@ -120,9 +135,9 @@ double Bootstrapper::MeanSignificance() const {
 }
 
 // Whether the chain explains its events better than a false one does: a single frame of that may look as
-// sure, ten in a row do not.
+// sure, ten in a row do not. Nor do more, where the place is farther off than it was said to be.
 bool Bootstrapper::Found() const {
-  return static_cast<int>(frames_.size()) >= options_.bootstrap.min_frames &&
+  return static_cast<double>(frames_.size()) >= off_ * options_.bootstrap.min_frames &&
          MeanSignificance() >= kFoundSignificance;
 }
 
@@ -131,21 +146,28 @@ bool Bootstrapper::Found() const {
 // where one does; where one explains it better the chain starts again from there.
 bool Bootstrapper::RuleOutRivals(Result* result) {
   const LocalizedFrame& newest = frames_.back();
-  const StartRival rival = FindRival(alignment_, *newest.field, result->points, state_.T_map_body, kStart,
-                                     newest.seq, kRivalSearches);
-  if (!rival.distinct || rival.significance > 0) return true;
+  const auto find = [&](double times) {
+    const StartRange range{times * kStart.position, times * kStart.rotation, kStart.levels};
+    return FindRival(alignment_, *newest.field, result->points, state_.T_map_body, range, newest.seq,
+                     static_cast<int>(std::lround(times * kRivalSearches)));
+  };
+  StartRival rival = find(1);
+  // Where the start pose turned out to be wrong by more than a little, the right pose may be as far again.
+  if (!Beats(rival) && off_ > 1) rival = find(off_);
+  if (!Beats(rival)) return true;
   result->reason = "another pose explains the events as well";
   if (rival.significance < -kPreferredSignificance) {
     BodyState start = state_;
     start.T_map_body = rival.T_map_body;
     start.velocity.setZero();
-    Start(start);
+    Restart(start);
   }
   return false;
 }
 
 void Bootstrapper::RejectFrame(Result* result) {
   frames_.clear();
+  off_ = 1;
   unrivaled_ = false;
   state_.T_map_body = anchor_.pose();
   state_.velocity = anchor_.velocity();

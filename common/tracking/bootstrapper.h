@@ -58,6 +58,7 @@ class Bootstrapper {
     double significance;
   };
 
+  void Restart(const BodyState& state);
   double MeanSignificance() const;
   void RejectFrame(Result* result);
   Eigen::Vector3d RecentVelocity() const;
@@ -75,6 +76,7 @@ class Bootstrapper {
   int rejected_ = 0;                    // frames in a row, or since the map was last found
   std::vector<LocalizedFrame> frames_;  // consecutive, no gaps
   bool unrivaled_ = false;              // this chain: no other pose explains the events as well
+  double off_ = 1;  // how far this chain is from where the body was said to be, ranges of a start search
 };
 
 }  // namespace evit

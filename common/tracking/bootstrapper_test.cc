@@ -80,5 +80,26 @@ TEST_F(BootstrapperTest, ARejectedFrameBreaksTheChain) {
   EXPECT_EQ(Step(source_.room).status, Status::kUnsure);
 }
 
+TEST_F(BootstrapperTest, DoesNotWaitForMotion) {
+  const SE3 T_map_body = source_.Truth(t_);
+  StartAt(T_map_body);
+  Bootstrapper::Result result;
+  int frames = 0;
+  for (; frames < 100 && result.status != Status::kAligned; ++frames) {
+    // The same view again and again, from a body at rest.
+    KeyframeInput keyframe = source_.Next(1'000'000, source_.room);
+    keyframe.t = t_ += 10'000;
+    keyframe.seq = frames;
+    keyframe.imu.clear();
+    for (Utime t = t_ - 10'000; frames > 0 && t <= t_; t += 5'000)
+      keyframe.imu.push_back(
+          {t, Eigen::Vector3d::Zero(), T_map_body.q.conjugate() * Eigen::Vector3d(0, 0, TestRig().gravity)});
+    result = bootstrapper_.Process(keyframe, frames > 0, Eigen::Vector3d::Zero());
+  }
+  ASSERT_EQ(result.status, Status::kAligned) << result.reason;
+  EXPECT_LE(frames, 20);
+  EXPECT_LT(result.window.back().state.velocity.norm(), 0.1);
+}
+
 }  // namespace
 }  // namespace evit

@@ -12,6 +12,7 @@ namespace evit {
 namespace {
 
 constexpr StartRange kRange{0.05, 0.05, 3};  // how far a body may get between two frames, and then some
+constexpr double kFrameError = 0.03;         // m: that a frame's pose may have besides
 constexpr int kPatience = 150;               // frames that do not fit before it says LOST: at rest none does
 
 }  // namespace
@@ -77,7 +78,8 @@ TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
   TrackerOutput out;
   out.quality = fit.quality;
   out.iterations = fit.iterations;
-  if (LiesOnEvents(fit.quality, options_.failure.min_contrast, fit.significance, kFollowSignificance)) {
+  if (IsReachable(fit.T_map_body, seconds) &&
+      LiesOnEvents(fit.quality, options_.failure.min_contrast, fit.significance, kFollowSignificance)) {
     Accept(keyframe, seconds, fit.T_map_body);
     const Matrix6d alignment = EvaluateAlignmentExactly(alignment_, field, points, fit.T_map_body).hessian;
     out.information.topLeftCorner<6, 6>() = alignment;
@@ -102,6 +104,13 @@ BodyState EventOnlyTracker::Predict(double seconds) const {
   if (options_.window.motion_model != WindowOptions::MotionModel::kPreviousPose && seconds > 0)
     predicted.T_map_body = PoseAfter(state_, rate_, seconds);
   return predicted;
+}
+
+// A frame may fit elsewhere by chance, where nothing can get to in that time. Where the body is at the start
+// is not known so well.
+bool EventOnlyTracker::IsReachable(const SE3& T_map_body, double seconds) const {
+  return aligned_at_ == 0 ||
+         (T_map_body.p - state_.T_map_body.p).norm() <= kFrameError + options_.failure.max_speed * seconds;
 }
 
 void EventOnlyTracker::Accept(const KeyframeInput& keyframe, double seconds, const SE3& T_map_body) {

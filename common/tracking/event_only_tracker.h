@@ -37,6 +37,7 @@ class EventOnlyTracker final : public MapTracker {
 
  private:
   BodyState Predict(double seconds) const;
+  bool IsReachable(const SE3& T_map_body, double seconds) const;
   void Accept(const KeyframeInput& keyframe, double seconds, const SE3& T_map_body);
   void Reject();
 

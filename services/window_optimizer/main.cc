@@ -8,16 +8,6 @@
 
 namespace {
 
-evit::TrackerOptions TrackerPart(const evit::PipelineOptions& o) {
-  return {o.points,
-          o.window,
-          o.bootstrap,
-          o.failure,
-          o.keyframes.min_events,
-          o.surface.lag_px,
-          o.method == evit::PipelineOptions::Method::kEvt};
-}
-
 evit::PhotometricTrackerOptions PhotometricPart(const evit::PipelineOptions& o) {
   return {o.photometric,        o.keyframes.min_events, o.surface.lag_px,       o.points.min_depth_m,
           o.points.max_depth_m, o.window.map_sigma_m,   o.window.stamp_sigma_us};

@@ -16,10 +16,6 @@ namespace {
 
 constexpr Utime kPiece = 10'000;  // us of events at a time
 
-TrackerOptions TrackerPart(const PipelineOptions& o) {
-  return {o.points, o.window, o.bootstrap, o.failure, o.keyframes.min_events, o.surface.lag_px, false};
-}
-
 KeyframeInput InputOf(Keyframe* keyframe) {
   KeyframeInput input;
   input.t = keyframe->utime;
