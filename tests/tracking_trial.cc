@@ -3,8 +3,9 @@
 // Usage: tracking_trial LOG MAP RIG TRUTH SETTINGS OFF LENGTH START...
 // START: seconds after the truth's first pose; each run begins there, CM and DEG (OFF is "CM:DEG") off the
 // true pose in random directions, and is LENGTH seconds long (0: to the end). One Markdown row for each on
-// standard output, of all poses reported; "TRACKING after": the first pose of the window. Exit code 1 where
-// a pose said to be TRACKING is more than 5 cm off, or a run that starts from the true pose is lost.
+// standard output, of all poses reported; "TRACKING after": the first pose of the window; "apart": what two
+// runs that follow each other differ by at the same instants, once both are half a second old. Exit code 1
+// where a pose said to be TRACKING is more than 5 cm off, or a run that starts from the true pose is lost.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -54,20 +55,17 @@ class Run {
   /// From `begin` to `end` (us), the body at T_map_body at first.
   Run(const Recording& recording, const SE3& T_map_body, Utime begin, Utime end)
       : recording_(recording), builder_(recording.rig, DrawingOf(recording.options), /*lossless=*/true) {
-        tracker_ = MakeTracker(recording.rig, TrackerPart(recording.options), T_map_body);
+    tracker_ = MakeTracker(recording.rig, TrackerPart(recording.options), T_map_body);
     auto sample = recording.imu.begin();
     while (sample != recording.imu.end() && sample->t < begin) ++sample;
-    calibration::ForEachEventPacket(recording.log, begin, end,
-                                    [this, &sample](const EventArray& events) {
-                                      // Some IMU ahead, as in a log: keyframes wait for it.
-                                      constexpr Utime kAhead = 20'000;
-                                      for (; sample != recording_.imu.end() &&
-                                             sample->t <= events.t.back() + kAhead;
-                                           ++sample)
-                                        builder_.AddImu(*sample);
-                                      builder_.AddEvents(events, events.t.back());
-                                      Track();
-                                    });
+    calibration::ForEachEventPacket(recording.log, begin, end, [this, &sample](const EventArray& events) {
+      // Some IMU ahead, as in a log: keyframes wait for it.
+      constexpr Utime kAhead = 20'000;
+      for (; sample != recording_.imu.end() && sample->t <= events.t.back() + kAhead; ++sample)
+        builder_.AddImu(*sample);
+      builder_.AddEvents(events, events.t.back());
+      Track();
+    });
     builder_.Flush();
     Track();
   }
@@ -127,6 +125,9 @@ struct Sums {
   int n = 0, lost = 0, wrong = 0;
   double first = 0, tracks = 0, position = 0, orientation = 0, largest = 0;
   double log_position_nees = 0, log_orientation_nees = 0;
+  Trajectory before;  // poses of the last run
+  int n_apart = 0;
+  double position_apart = 0, orientation_apart = 0;
 
   void Add(double first_pose, double first_tracking, const TrajectoryError& error,
            const Consistency& consistency) {
@@ -138,12 +139,27 @@ struct Sums {
     largest = std::max(largest, error.position_max);
   }
 
+  void Compare(const Trajectory& poses) {
+    Trajectory settled;
+    for (const StampedPose& pose : poses)
+      if (pose.t > poses.front().t + 500'000) settled.push_back(pose);
+    const TrajectoryError apart = AbsoluteError(before, settled, Alignment::kNone);
+    before = poses;
+    if (!apart.scored()) return;
+    ++n_apart;
+    position_apart += std::pow(apart.position_rmse, 2);
+    orientation_apart += std::pow(apart.orientation_rmse, 2);
+  }
+
   void Print() const {
-    const double k = std::max(n, 1);
-    std::printf("| **all** | %.2f | %.2f | %.3f / %.3f | %.2f, %.2f | %.2f | %d lost, %d wrong, of %d |\n", first,
-                tracks, 100 * std::sqrt(position / k), kDegrees * std::sqrt(orientation / k),
-                std::exp(log_position_nees / k), std::exp(log_orientation_nees / k), 100 * largest, lost,
-                wrong, n + lost + wrong);
+    const double k = std::max(n, 1), pairs = std::max(n_apart, 1);
+    std::printf(
+        "| **all** | %.2f | %.2f | %.3f / %.3f | %.2f / %.2f | %.2f, %.2f | %.2f | %d lost, %d wrong, of %d "
+        "|\n",
+        first, tracks, 100 * std::sqrt(position / k), kDegrees * std::sqrt(orientation / k),
+        100 * std::sqrt(position_apart / pairs), kDegrees * std::sqrt(orientation_apart / pairs),
+        std::exp(log_position_nees / k), std::exp(log_orientation_nees / k), 100 * largest, lost, wrong,
+        n + lost + wrong);
   }
 };
 
@@ -152,7 +168,9 @@ struct Off {
 
   SE3 From(const SE3& T_map_body, std::mt19937* chance) const {
     std::normal_distribution<double> axis;
-    const auto direction = [&] { return Eigen::Vector3d(axis(*chance), axis(*chance), axis(*chance)).normalized(); };
+    const auto direction = [&] {
+      return Eigen::Vector3d(axis(*chance), axis(*chance), axis(*chance)).normalized();
+    };
     return {T_map_body.q * ExpSO3(rotation * direction()), T_map_body.p + position * direction()};
   }
 };
@@ -169,10 +187,13 @@ void Try(const Recording& recording, const std::string& start, double length, co
   };
   const TrajectoryError error = run.error();
   const Consistency consistency = run.consistency();
-  std::printf("| %s | %.2f | %.2f | %.3f / %.3f | %.2f, %.2f | %.2f | %s |\n", start.c_str(), after(run.poses()),
-              after(run.tracking()), 100 * error.position_rmse, kDegrees * error.orientation_rmse,
-              consistency.position.mean_per_dof(), consistency.orientation.mean_per_dof(),
-              100 * error.position_max, run.wrong() ? "WRONG" : run.tracks() ? "TRACKING" : "LOST");
+  std::printf("| %s | %.2f | %.2f | %.3f / %.3f | | %.2f, %.2f | %.2f | %s |\n", start.c_str(),
+              after(run.poses()), after(run.tracking()), 100 * error.position_rmse,
+              kDegrees * error.orientation_rmse, consistency.position.mean_per_dof(),
+              consistency.orientation.mean_per_dof(), 100 * error.position_max,
+              run.wrong()    ? "WRONG"
+              : run.tracks() ? "TRACKING"
+                             : "LOST");
   std::fflush(stdout);
   if (run.wrong())
     ++sums->wrong;
@@ -180,6 +201,7 @@ void Try(const Recording& recording, const std::string& start, double length, co
     ++sums->lost;
   else
     sums->Add(after(run.poses()), after(run.tracking()), error, consistency);
+  if (!run.wrong() && run.tracks()) sums->Compare(run.poses());
 }
 
 int Main(int n, char** argument) {
@@ -194,8 +216,9 @@ int Main(int n, char** argument) {
   if (std::sscanf(argument[6], "%lf:%lf", &off.position, &off.rotation) != 2)
     throw std::runtime_error(std::string(argument[6]) + ": no CM:DEG");
   off.position /= 100, off.rotation /= kDegrees;
-  std::printf("| start, s | first pose, s | TRACKING after, s | ATE cm / deg | NEES/dof position, orientation | "
-              "largest cm | end |\n|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| start, s | first pose, s | TRACKING after, s | ATE cm / deg | apart cm / deg | "
+      "NEES/dof position, orientation | largest cm | end |\n|---|---|---|---|---|---|---|---|\n");
   Sums sums;
   for (int k = 8; k < n; ++k) Try(recording, argument[k], std::strtod(argument[7], nullptr), off, &sums);
   sums.Print();

@@ -69,6 +69,7 @@ TEST_F(SettingsFile, FullCopiesOfEarlierVersionsLoadToTheSameValues) {
     expected.window.image_sigma = 80;
     expected.failure.min_contrast = 0.03;
     expected.bootstrap.min_contrast = 0.06;
+    expected.bootstrap.max_duration_s = 2;
     expected.window.correlated_share = 1.8;
     expected.window.map_sigma_m = 0.0012;
     EXPECT_EQ(SettingsText(earlier.options), SettingsText(expected));
