@@ -24,6 +24,7 @@ struct Row {
 
 std::vector<Row> Rows(const Rig& before, const CameraImuCalibration& c) {
   std::vector<Row> rows;
+  rows.reserve(15);
   const auto sigma = [&](int k) { return std::sqrt(c.covariance(k, k)); };
   const Eigen::Vector3d turn =
       kDegreesPerRadian * LogSO3(before.T_body_camera.q.conjugate() * c.values.T_body_camera.q);
