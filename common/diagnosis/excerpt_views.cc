@@ -40,4 +40,8 @@ std::vector<MapView> ViewsOf(const MapIndex& map, const World& world, const Even
   return all;
 }
 
+double Explained(const MapEventOverlap& overlap) {
+  return overlap.views > 0 && overlap.points >= kFewestOfAView * overlap.views ? overlap.kappa() : 0;
+}
+
 }  // namespace evit::diagnosis

@@ -24,4 +24,9 @@ inline OverlapOptions WithinAPixel() {
   return options;
 }
 
+constexpr int kFewestOfAView = 50;  // map points, mean: by fewer EVIT would not track either
+
+/// Its kappa(); 0 where the views hold too few points to tell: of a few, many may lie on events by chance.
+double Explained(const MapEventOverlap& overlap);
+
 }  // namespace evit::diagnosis

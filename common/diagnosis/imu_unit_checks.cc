@@ -47,11 +47,13 @@ Finding CheckAccelUnit(const std::vector<ImuSample>& samples, double gravity) {
   for (const double a : norms) spread += std::abs(a - median) / n;
   const double rms = std::sqrt(squares / n), steady = sum.norm() / n / std::max(rms, 1e-12);
   const std::string figure = FormatText("specific force %.3g m/s^2 (median), gravity %.2f", median, gravity);
-  if (std::abs(median / gravity - 1) < 0.2) return Good("imu-accel-unit", figure);
-  // Shaken hard, it reads more than gravity, up and down; in another unit it would do so on average too.
-  const bool shaken = median > gravity && spread > 0.2 * median;
-  if (shaken && std::abs(ForceWithoutShaking(samples) / gravity - 1) < 0.2)
-    return Good("imu-accel-unit", figure + ", shaken");
+  // Shaken hard, it reads more than gravity, up and down; in another unit it would do so on average too, and
+  // without gravity nothing is left on average.
+  const double calm = ForceWithoutShaking(samples);
+  const bool shaken = spread > 0.2 * median;
+  if (std::abs(median / gravity - 1) < 0.2 && !(shaken && calm < 0.5 * gravity))
+    return Good("imu-accel-unit", figure);
+  if (std::abs(calm / gravity - 1) < 0.2) return Good("imu-accel-unit", figure + ", shaken");
   struct Unit {
     const char* name;
     double g;
@@ -65,10 +67,17 @@ Finding CheckAccelUnit(const std::vector<ImuSample>& samples, double gravity) {
               FormatText("multiply by %.6g where the recording is made or converted", gravity / unit.g)};
     }
   }
-  if (median < 0.6 * gravity) {
+  if (std::min(median, calm) < 0.6 * gravity) {
     return {"imu-accel-unit", Severity::kError, figure,
             "Gravity was taken out of the accelerometer's readings (a \"linear acceleration\").",
             "record the raw specific force: at rest it must read 9.8 m/s^2 upwards"};
+  }
+  if (calm < 1.5 * gravity) {  // nearer than any unit
+    return {"imu-accel-scale", Severity::kError, figure,
+            FormatText("The accelerometer reads %.0f %% %s gravity: its scale is wrong.",
+                       100 * std::abs(calm / gravity - 1), calm > gravity ? "more than" : "less than"),
+            FormatText("look at the full-scale setting of sensor and driver, or multiply by %.3f",
+                       gravity / calm)};
   }
   return {"imu-accel-unit", Severity::kError, figure,
           "The accelerometer's unit is not m/s^2, or its scale is wrong.",

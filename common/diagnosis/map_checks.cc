@@ -18,6 +18,11 @@ Finding Unit(const MapSummary& s) {
   const double extent = (s.max - s.min).maxCoeff();
   const std::string figure =
       FormatText("%zu points, %.3g m across, %.2g m apart", s.n_points, extent, s.median_spacing);
+  if (s.n_points < 500) {
+    return {"map-size", s.n_points < 200 ? Severity::kError : Severity::kWarning, figure,
+            FormatText("The map has only %zu points: a camera sees too few of them at a time.", s.n_points),
+            "make one from camera frames: `evit map build`"};
+  }
   // What a camera sees of a room or a street is between these, and a semi-dense map has its edges sampled
   // finely.
   if (s.median_spacing > 0.5 || extent > 3000) {
@@ -28,10 +33,6 @@ Finding Unit(const MapSummary& s) {
   if (extent < 0.2) {
     return {"map-unit", Severity::kError, figure, "The map is smaller than a hand: its unit is not metres.",
             "convert it: `evit map import --scale`"};
-  }
-  if (s.n_points < 500) {
-    return {"map-size", s.n_points < 100 ? Severity::kError : Severity::kWarning, figure,
-            "The map has too few points.", "make one from camera frames: `evit map build`"};
   }
   if (s.median_spacing > 0.1) {
     return {"map-spacing", Severity::kWarning, figure, "The map's points are far apart.",

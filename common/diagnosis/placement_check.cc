@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "common/diagnosis/excerpt_views.h"
+#include "common/diagnosis/placement_fit.h"
 #include "common/geometry/degrees.h"
-#include "common/overlap/misplacement.h"
 #include "common/text/format_text.h"
 
 namespace evit::diagnosis {
@@ -20,58 +20,6 @@ constexpr double kCertain = 4, kLikely = 2;  // standard errors
 constexpr double kLeastGain = 0.03;          // overlap, of 1
 constexpr double kFound = 0.12,
                  kFoundByMany = 0.2;  // that one, or several, unknowns must reach: less chance finds
-
-// What good calibrations leave, and the latency of pixels in dim light.
-double Tolerance(Kind kind) {
-  switch (kind) {
-    case Kind::kTime:
-      return 0.015;
-    case Kind::kRotation:
-      return 1 / kDegreesPerRadian;
-    case Kind::kShift:
-      return 0.03;
-    case Kind::kCentre:
-      return 4;
-    default:
-      return 0.02;
-  }
-}
-
-struct Fit {
-  Misplacement misplacement;
-  std::vector<double> overlaps;  // of each view, of 1
-  double overlap = 0;            // of all
-  bool OneUnknown() const {
-    return misplacement.kind == Kind::kTime || misplacement.kind == Kind::kScale ||
-           misplacement.kind == Kind::kFocal;
-  }
-};
-
-Fit Measure(const World& world, const std::vector<MapView>& views, const Misplacement& misplacement) {
-  Fit fit{misplacement, {}, 0};
-  MapEventOverlap sum;
-  for (const MapView& view : views) {
-    const MapEventOverlap one =
-        MeasureCorrected(world.rig, world.truth, {view}, misplacement, WithinAPixel());
-    fit.overlaps.push_back(one.kappa());
-    sum.Add(one);
-  }
-  fit.overlap = sum.kappa();
-  return fit;
-}
-
-// By how many standard errors `a` is better than `b`, view by view.
-double Better(const Fit& a, const Fit& b) {
-  const auto n = static_cast<double>(a.overlaps.size());
-  double mean = 0, squares = 0;
-  for (std::size_t k = 0; k < a.overlaps.size(); ++k) mean += (a.overlaps[k] - b.overlaps[k]) / n;
-  for (std::size_t k = 0; k < a.overlaps.size(); ++k) {
-    const double off = a.overlaps[k] - b.overlaps[k] - mean;
-    squares += off * off;
-  }
-  const double error = std::sqrt(squares / (n * std::max(1.0, n - 1)));
-  return mean / std::max(error, 1e-6);
-}
 
 std::string InWords(const Misplacement& m, const Rig& rig) {
   const double percent = 100 * std::abs(m.value.x());
@@ -128,22 +76,25 @@ std::string Remedy(const Misplacement& m, const Rig& rig) {
   }
 }
 
+bool Within(const Misplacement& m) { return m.value.norm() < Tolerance(m.kind); }
+
 // Of those that are not clearly worse than the best: first the ones with one unknown, then the better.
-std::vector<const Fit*> Candidates(const std::vector<Fit>& fits) {
-  const auto best = std::max_element(fits.begin(), fits.end(),
-                                     [](const Fit& a, const Fit& b) { return a.overlap < b.overlap; });
-  std::vector<const Fit*> alike;
-  for (const Fit& fit : fits)
+std::vector<const PlacementFit*> Alike(const std::vector<PlacementFit>& fits) {
+  const auto best =
+      std::max_element(fits.begin(), fits.end(),
+                       [](const PlacementFit& a, const PlacementFit& b) { return a.overlap < b.overlap; });
+  std::vector<const PlacementFit*> alike;
+  for (const PlacementFit& fit : fits)
     if (&fit == &*best || Better(*best, fit) < kLikely) alike.push_back(&fit);
-  std::sort(alike.begin(), alike.end(), [](const Fit* a, const Fit* b) {
+  std::sort(alike.begin(), alike.end(), [](const PlacementFit* a, const PlacementFit* b) {
     return a->OneUnknown() != b->OneUnknown() ? a->OneUnknown() : a->overlap > b->overlap;
   });
   return alike;
 }
 
-Findings GoodOnes(const std::vector<Fit>& fits) {
+Findings GoodOnes(const std::vector<PlacementFit>& fits) {
   Findings found;
-  for (const Fit& fit : fits) {
+  for (const PlacementFit& fit : fits) {
     const Kind kind = fit.misplacement.kind;
     if (kind == Kind::kScale || kind == Kind::kFocal)
       found.push_back(Good(
@@ -153,43 +104,54 @@ Findings GoodOnes(const std::vector<Fit>& fits) {
   return found;
 }
 
+// The first of those that fit alike; the others are mentioned.
+Finding Misplaced(const std::vector<const PlacementFit*>& alike, const PlacementFit& given, const Rig& rig) {
+  const PlacementFit& fit = *alike.front();
+  const Misplacement& m = fit.misplacement;
+  std::string what = InWords(m, rig);
+  what[0] = m.kind == Kind::kRotation ? what[0] : static_cast<char>(what[0] - 'a' + 'A');
+  what += FormatText(": then the map lies on the events (%.2f instead of %.2f, of 1).", fit.overlap,
+                     given.overlap);
+  for (const PlacementFit* other : alike)
+    if (other != &fit) what += " It would also fit if " + InWords(other->misplacement, rig) + ".";
+  return {
+      CheckOf(m.kind), given.overlap < 0.5 * fit.overlap ? Severity::kError : Severity::kWarning,
+      FormatText("better by %.0f standard errors over %zu views", Better(fit, given), given.overlaps.size()),
+      what, Remedy(m, rig)};
+}
+
 }  // namespace
 
 PlacementCheck CheckPlacement(const MapIndex& map, const World& world, const EventExcerpts& excerpts,
                               double best) {
   PlacementCheck check;
-  MapViewOptions options;
-  options.max_points = 1500;
-  options.margin_px = 0.1 * world.rig.camera.width;  // what a scale of some percent brings into view
-  const std::vector<MapView> views = ViewsOf(map, world, excerpts, 1, options);
-  if (views.size() < 5 || 2 * views.size() < excerpts.instants().size()) return check;
-  const Fit given = Measure(world, views, {Kind::kTime, Eigen::Vector3d::Zero(), 0});
-  std::vector<Fit> fits;
-  for (const Misplacement& m : FindMisplacements(world.rig, world.truth, views))
-    fits.push_back(Measure(world, views, m));
-  for (const Fit* fit : Candidates(fits)) {
-    const Misplacement& m = fit->misplacement;
-    if (m.value.norm() < Tolerance(m.kind) ||
-        fit->overlap < std::max(best, fit->OneUnknown() ? kFound : kFoundByMany) ||
-        fit->overlap < given.overlap + kLeastGain || Better(*fit, given) < kCertain)
-      continue;
-    std::string what = InWords(m, world.rig);
-    what[0] = m.kind == Kind::kRotation ? what[0] : static_cast<char>(what[0] - 'a' + 'A');
-    what += FormatText(": then the map lies on the events (%.2f instead of %.2f, of 1).", fit->overlap,
-                       given.overlap);
-    for (const Fit* other : Candidates(fits)) {
-      const Misplacement& o = other->misplacement;
-      if (other == fit || o.value.norm() < Tolerance(o.kind) || Better(*other, given) < kCertain) continue;
-      what += " It would also fit if " + InWords(o, world.rig) + ".";
-    }
-    check.misplaced = true;
-    check.findings = {
-        {CheckOf(m.kind), given.overlap < 0.5 * fit->overlap ? Severity::kError : Severity::kWarning,
-         FormatText("better by %.0f standard errors over %zu views", Better(*fit, given), views.size()), what,
-         Remedy(m, world.rig)}};
+  const std::vector<MapView> views = PlacementViews(map, world, excerpts);
+  std::vector<PlacementFit> fits;
+  const PlacementFit given = MeasurePlacement(world, views, {});
+  if (EnoughViews(views, excerpts))
+    for (const Misplacement& m : FindMisplacements(world.rig, world.truth, views))
+      fits.push_back(MeasurePlacement(world, views, m));
+  if (given.overlap < kFound)
+    if (std::optional<PlacementFit> far = FindFarScale(map, world, excerpts)) fits.push_back(std::move(*far));
+  if (fits.empty()) return check;
+  const auto counts = [&](const PlacementFit& fit) {
+    return !Within(fit.misplacement) &&
+           fit.overlap >= std::max(best, fit.OneUnknown() ? kFound : kFoundByMany) &&
+           fit.overlap >= given.overlap + kLeastGain && Better(fit, given) >= kCertain;
+  };
+  const std::vector<const PlacementFit*> alike = Alike(fits);
+  check.misplaced =
+      std::any_of(alike.begin(), alike.end(), [&](const PlacementFit* f) { return counts(*f); });
+  if (!check.misplaced) {
+    check.findings = GoodOnes(fits);
     return check;
   }
-  check.findings = GoodOnes(fits);
+  std::vector<PlacementFit> refined;
+  for (const PlacementFit& fit : fits)
+    if (counts(fit)) refined.push_back(Refined(map, world, excerpts, fit));
+  const std::vector<const PlacementFit*> named = Alike(refined);
+  check.overlap = named.front()->overlap;
+  check.findings = {Misplaced(named, given, world.rig)};
   return check;
 }
 

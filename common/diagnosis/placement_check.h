@@ -11,7 +11,8 @@ namespace evit::diagnosis {
 /// focal length, the camera's clock, its rotation, a shift of the map, the principal point.
 struct PlacementCheck {
   bool misplaced = false;
-  Findings findings;  // of the misplacement; where there is none, that scale and focal length are good
+  double overlap = 0;  // of 1, once that is corrected
+  Findings findings;   // of the misplacement; where there is none, that scale and focal length are good
 };
 
 /// A misplacement counts where it is larger than what good calibrations leave, explains more than `best` (the

@@ -207,6 +207,11 @@ std::vector<Misplacement> FindMisplacements(const Rig& rig, const Trajectory& bo
   return found;
 }
 
+Misplacement FindMisplacement(const Rig& rig, const Trajectory& body, const std::vector<MapView>& views,
+                              Kind kind, const MisplacementOptions& options) {
+  return Fitter(rig, body, views, options).Fit(kind);
+}
+
 MapEventOverlap MeasureCorrected(const Rig& rig, const Trajectory& body, const std::vector<MapView>& views,
                                  const Misplacement& misplacement, const OverlapOptions& options) {
   MapEventOverlap overlap;

@@ -42,6 +42,10 @@ std::vector<Misplacement> FindMisplacements(const Rig& rig, const Trajectory& bo
                                             const std::vector<MapView>& views,
                                             const MisplacementOptions& options = {});
 
+/// The same of one kind alone.
+Misplacement FindMisplacement(const Rig& rig, const Trajectory& body, const std::vector<MapView>& views,
+                              Misplacement::Kind kind, const MisplacementOptions& options = {});
+
 /// How map and events lie on each other once the misplacement is corrected, in all views. A correction that
 /// only some points suggest, by chance, does not explain what fires.
 MapEventOverlap MeasureCorrected(const Rig& rig, const Trajectory& body, const std::vector<MapView>& views,

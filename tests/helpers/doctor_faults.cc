@@ -295,6 +295,23 @@ const std::vector<Fault>& Faults() {
        [](Sample* s) {
          for (Eigen::Vector3f& p : s->map.points) p *= 0.9F;
        }},
+      {"MapAQuarterTooSmall", "map-scale",
+       [](Sample* s) {
+         for (Eigen::Vector3f& p : s->map.points) p *= 0.75F;
+       },
+       [](const Sample& s) { return CameraIsApart(s); }},
+      {"MapOf150Points", "map-size",
+       [](Sample* s) {
+         std::vector<Eigen::Vector3f> few;
+         for (std::size_t k = 0; k < 150; ++k) few.push_back(s->map.points[k * s->map.points.size() / 150]);
+         s->map.points = std::move(few);
+       }},
+      {"CameraClockFivePercentFast", "clock-drift",
+       [](Sample* s) {
+         const Utime first = s->events.t.front();
+         for (Utime& t : s->events.t) t = first + (t - first) * 21 / 20;
+       },
+       [](const Sample& s) { return CameraIsApart(s); }},
       {"FocalLengthFivePercentTooLong", "intrinsics-fit", [](Sample* s) { ScaleFocalLength(s, 1.05); }},
       {"FocalLengthTenPercentTooShort", "intrinsics-fit", [](Sample* s) { ScaleFocalLength(s, 0.9); }},
       {"MostEventsOfOnePolarity", "polarity",

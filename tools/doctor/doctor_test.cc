@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <random>
@@ -216,12 +217,24 @@ TEST(DoctorTest, ShakingIsNoOtherUnit) {
           {Utime{5000} * k, {0, 0, 0.1}, scale * Eigen::Vector3d(20 * std::sin(0.22 * k), 0, 9.81)});
     bool found = false;
     for (const Finding& f : diagnosis::CheckImu(samples, GoodSample().rig)) {
-      if (f.check != "imu-accel-unit") continue;
+      if (f.check != (scale == 1 ? "imu-accel-unit" : "imu-accel-scale")) continue;
       found = true;
       EXPECT_EQ(f.severity, scale == 1 ? Severity::kGood : Severity::kError) << f.figure;
     }
     EXPECT_TRUE(found);
   }
+}
+
+// Linear acceleration of a rig that is shaken so hard that half of the readings are as large as gravity.
+TEST(DoctorTest, ShakingIsNoGravity) {
+  std::vector<ImuSample> samples;
+  samples.reserve(600);
+  for (int k = 0; k < 600; ++k)
+    samples.push_back({Utime{5000} * k, {0, 0, 0.1}, {14 * std::sin(0.22 * k), 0, 0}});
+  const diagnosis::Findings found = diagnosis::CheckImu(samples, GoodSample().rig);
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const Finding& f) {
+    return f.check == "imu-accel-unit" && f.severity == Severity::kError;
+  }));
 }
 
 TEST(DoctorTest, ASizeToldFromEventsIsAtLeastThat) {
