@@ -6,20 +6,25 @@
 // standard output, of all poses reported; "TRACKING after": the first pose of the window; "apart": what two
 // runs that follow each other differ by at the same instants, once both are half a second old. Exit code 1
 // where a pose said to be TRACKING is more than 5 cm off, or a run that starts from the true pose is lost.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "common/config/rig_file.h"
 #include "common/config/settings_file.h"
 #include "common/evaluation/consistency.h"
 #include "common/evaluation/trajectory_error.h"
 #include "common/events/keyframe_builder.h"
+#include "common/geometry/degrees.h"
 #include "common/map/denoise.h"
 #include "common/map/map_file.h"
 #include "common/map/map_index.h"
@@ -30,8 +35,6 @@
 
 namespace evit {
 namespace {
-
-constexpr double kDegrees = 180 / M_PI;
 
 Utime ToUtime(double seconds) { return std::llround(1e6 * seconds); }
 
@@ -144,7 +147,7 @@ struct Sums {
     for (const StampedPose& pose : poses)
       if (pose.t > poses.front().t + 500'000) settled.push_back(pose);
     const TrajectoryError apart = AbsoluteError(before, settled, Alignment::kNone);
-    before = poses;
+    before = settled;
     if (!apart.scored()) return;
     ++n_apart;
     position_apart += std::pow(apart.position_rmse, 2);
@@ -156,8 +159,8 @@ struct Sums {
     std::printf(
         "| **all** | %.2f | %.2f | %.3f / %.3f | %.2f / %.2f | %.2f, %.2f | %.2f | %d lost, %d wrong, of %d "
         "|\n",
-        first, tracks, 100 * std::sqrt(position / k), kDegrees * std::sqrt(orientation / k),
-        100 * std::sqrt(position_apart / pairs), kDegrees * std::sqrt(orientation_apart / pairs),
+        first, tracks, 100 * std::sqrt(position / k), kDegreesPerRadian * std::sqrt(orientation / k),
+        100 * std::sqrt(position_apart / pairs), kDegreesPerRadian * std::sqrt(orientation_apart / pairs),
         std::exp(log_position_nees / k), std::exp(log_orientation_nees / k), 100 * largest, lost, wrong,
         n + lost + wrong);
   }
@@ -189,7 +192,7 @@ void Try(const Recording& recording, const std::string& start, double length, co
   const Consistency consistency = run.consistency();
   std::printf("| %s | %.2f | %.2f | %.3f / %.3f | | %.2f, %.2f | %.2f | %s |\n", start.c_str(),
               after(run.poses()), after(run.tracking()), 100 * error.position_rmse,
-              kDegrees * error.orientation_rmse, consistency.position.mean_per_dof(),
+              kDegreesPerRadian * error.orientation_rmse, consistency.position.mean_per_dof(),
               consistency.orientation.mean_per_dof(), 100 * error.position_max,
               run.wrong()    ? "WRONG"
               : run.tracks() ? "TRACKING"
@@ -212,10 +215,12 @@ int Main(int n, char** argument) {
                             ReadTum(argument[4]),
                             LoadOptionsFor(rig.camera, argument[5]),
                             calibration::ReadImu(argument[1], rig.imu_noise)};
+  if (recording.options.method == PipelineOptions::Method::kEvpt)
+    throw std::runtime_error(std::string(argument[5]) + ": no trial of EVPT, which has another map");
   Off off;
   if (std::sscanf(argument[6], "%lf:%lf", &off.position, &off.rotation) != 2)
     throw std::runtime_error(std::string(argument[6]) + ": no CM:DEG");
-  off.position /= 100, off.rotation /= kDegrees;
+  off.position /= 100, off.rotation *= kRadiansPerDegree;
   std::printf(
       "| start, s | first pose, s | TRACKING after, s | ATE cm / deg | apart cm / deg | "
       "NEES/dof position, orientation | largest cm | end |\n|---|---|---|---|---|---|---|---|\n");

@@ -26,9 +26,15 @@ constexpr double kMinKappa = 0.05;  // of the overlap found, beyond chance; a wr
 constexpr double kHoldInformation = 1e12;  // information: a micrometre, a microsecond
 constexpr std::size_t kSearchViews = 30;   // of the search, spread over the recording
 
-Matrix PriorInformation(const OverlapCalibrationOptions& o) {
+// Of the rig file's translation, m: what it says of it, or the option.
+Eigen::Vector3d PositionSigma(const Rig& rig, const OverlapCalibrationOptions& o) {
+  return rig.T_body_camera_sigma.translation.unaryExpr(
+      [&o](double stated) { return stated > 0 ? stated : o.position_sigma; });
+}
+
+Matrix PriorInformation(const Rig& rig, const OverlapCalibrationOptions& o) {
   Vector sigma;
-  sigma << Eigen::Vector3d::Constant(o.position_sigma), Eigen::Vector3d::Ones(), o.offset_sigma, o.lag_sigma;
+  sigma << PositionSigma(rig, o), Eigen::Vector3d::Ones(), o.offset_sigma, o.lag_sigma;
   return sigma.array().square().inverse().matrix().asDiagonal();
 }
 
@@ -62,16 +68,15 @@ OverlapCost::Values Search(const OverlapCost& cost, const OverlapCost::Values& f
 }
 
 // What errs alike in all views.
-OverlapCalibration::Covariance Common(const std::vector<MapView>& views, const Camera& camera,
+OverlapCalibration::Covariance Common(const std::vector<MapView>& views, const Rig& rig,
                                       const OverlapCalibrationOptions& options) {
   double speed2 = 0;
   for (const MapView& view : views)
     speed2 += view.speed_px * view.speed_px / static_cast<double>(views.size());
-  const double turn = options.registration_px / camera.fx,
+  const double turn = options.registration_px / rig.camera.fx,
                late2 = std::pow(options.registration_px, 2) / (speed2 + 1);
   Eigen::Matrix<double, 7, 1> variances;
-  variances << Eigen::Vector3d::Constant(std::pow(options.position_sigma, 2)),
-      Eigen::Vector3d::Constant(turn * turn), late2;
+  variances << PositionSigma(rig, options).cwiseAbs2(), Eigen::Vector3d::Constant(turn * turn), late2;
   return variances.asDiagonal();
 }
 
@@ -166,7 +171,7 @@ OverlapCalibration CalibrateByOverlap(const std::vector<MapView>& all, const Tra
     return Failed("fewer than ten views of the map have events: do log, truth and map belong together?");
 
   const OverlapCost::Values before{rig.T_body_camera, ToSeconds(rig.camera_time_offset), options.lag_px};
-  const Matrix prior_all = PriorInformation(options);
+  const Matrix prior_all = PriorInformation(rig, options);
   Matrix prior = prior_all;
   for (const int held : {0, 1, 2, 6, 7})
     prior(held, held) = kHoldInformation;  // while it is far from the minimum
@@ -191,7 +196,7 @@ OverlapCalibration CalibrateByOverlap(const std::vector<MapView>& all, const Tra
     const Matrix A = (scale * H + prior).inverse();
     result.covariance = (A * (scale * scale * S + prior) * A).topLeftCorner<7, 7>();
   }
-  result.covariance += Common(views, rig.camera, options);
+  result.covariance += Common(views, rig, options);
   const bool offset_held = HoldUnobservable(result.covariance, &prior, &result.unobservable);
   if (!result.unobservable.empty()) Minimise({cost, before, prior, scale, options.between_steps}, &values);
 

@@ -24,9 +24,9 @@ struct OverlapCalibration {
 };
 
 struct OverlapCalibrationOptions {
-  double search_deg = 3;                   // about each axis: how wrong the rig file may be
-  double position_sigma = 0.001;           // m: of the rig file's translation, per axis
-  double offset_sigma = 0.1;               // s
+  double search_deg = 3;          // about each axis: how wrong the rig file may be
+  double position_sigma = 0.001;  // m: of the rig file's translation, per axis, where it says nothing of it
+  double offset_sigma = 0.1;      // s
   double lag_px = 0.25, lag_sigma = 0.25;  // pixels: SurfaceOptions::lag_px, and how far sensors differ
   double blur_px = 2;                      // of the events, at last
   /// pixels: how far map, lens model and events may lie beside each other alike in all views. Goes into the

@@ -18,9 +18,11 @@ constexpr StartRange kStart{0.1, 0.09, 4};     // a start pose typed in by hand;
 constexpr StartRange kFollow{0.01, 0.006, 3};  // constant velocity and gyro over some 10 ms
 constexpr std::size_t kMaxFrames = 300;
 constexpr std::size_t kLongestDoubt = 100;  // frames of a chain that may be false, before it is given up
-constexpr int kRivalSearches = 3;  // before a start counts: one misses the right pose one time in eight
-constexpr double kMostRanges = 4;  // that rivals are looked for in
-constexpr int kPatience = 100;     // frames that do not fit before the start counts as failed
+constexpr int kRivalSearches = 3;    // before a start counts: one misses the right pose one time in eight
+constexpr double kMostRanges = 4;    // that rivals are looked for in
+constexpr double kWideSearch = 1.5;  // start errors: from here on the range of a start is too narrow
+constexpr std::int64_t kBetweenSearches = 5;  // frames: another one may tell what the first look did not
+constexpr int kPatience = 100;                // frames that do not fit before the start counts as failed
 
 // The distance of two poses, in ranges of a start search.
 double RangesBetween(const SE3& a, const SE3& b) {
@@ -50,7 +52,7 @@ Bootstrapper::Bootstrapper(const Rig& rig, const TrackerOptions& options, const 
     : rig_(rig), options_(options), alignment_(alignment), points_(points) {}
 
 void Bootstrapper::Start(const BodyState& state) {
-  off_ = 1;
+  least_start_error_ = 1;
   Restart(state);
 }
 
@@ -102,6 +104,8 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
     return result;
   }
   state_.T_map_body = fit.T_map_body;
+  if (frames_.empty())
+    start_error_ = std::clamp(RangesBetween(fit.T_map_body, anchor_.pose()), least_start_error_, kMostRanges);
   frames_.push_back({{keyframe.t, fit.T_map_body, imu}, keyframe.seq, field, result.points, significance});
   if (frames_.size() > kMaxFrames) frames_.erase(frames_.begin());
   state_.velocity = RecentVelocity();
@@ -112,17 +116,20 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
   // A single frame finds some minimum nearly anywhere; several in a row that agree with gyro and constant
   // velocity do not.
   result.status = Result::Status::kUnsure;
-  if (!unrivaled_) off_ = std::clamp(RangesBetween(fit.T_map_body, anchor_.pose()), off_, kMostRanges);
   if (!Found()) {
     if (frames_.size() >= kLongestDoubt) RejectFrame(&result);
     return result;
   }
-  if (!unrivaled_) unrivaled_ = RuleOutRivals(&result);
+  if (!unrivaled_) {
+    unrivaled_ = RuleOutRivals(&result);
+    unrivaled_since_ = keyframe.seq;
+  }
   if (!unrivaled_) return result;
   result.status = Result::Status::kLocalized;
   result.reason = "localising high-rate frames";
   // Only now the anchor moves: were the chain false, the anchor would have lost where the body was.
   rejected_ = 0;
+  least_start_error_ = 1;
   anchor_.Start(fit.T_map_body, state_.velocity);
   if (ReadyToAlign() && RuleOutRivals(&result)) Align(&result);
   return result;
@@ -137,8 +144,10 @@ double Bootstrapper::MeanSignificance() const {
 // Whether the chain explains its events better than a false one does: a single frame of that may look as
 // sure, ten in a row do not. Nor do more, where the place is farther off than it was said to be.
 bool Bootstrapper::Found() const {
-  return static_cast<double>(frames_.size()) >= off_ * options_.bootstrap.min_frames &&
-         MeanSignificance() >= kFoundSignificance;
+  const double times = unrivaled_ ? 1 : start_error_;
+  const double needed = std::min(times * options_.bootstrap.min_frames,
+                                 std::max(0.5 * kLongestDoubt, 1.0 * options_.bootstrap.min_frames));
+  return static_cast<double>(frames_.size()) >= needed && MeanSignificance() >= kFoundSignificance;
 }
 
 // A false lock may look as certain as the right pose while no other is known: before the first pose is
@@ -153,13 +162,15 @@ bool Bootstrapper::RuleOutRivals(Result* result) {
   };
   StartRival rival = find(1);
   // Where the start pose turned out to be wrong by more than a little, the right pose may be as far again.
-  if (!Beats(rival) && off_ > 1) rival = find(off_);
+  if (!Beats(rival) && start_error_ > kWideSearch) rival = find(start_error_);
   if (!Beats(rival)) return true;
   result->reason = "another pose explains the events as well";
   if (rival.significance < -kPreferredSignificance) {
     BodyState start = state_;
     start.T_map_body = rival.T_map_body;
     start.velocity.setZero();
+    least_start_error_ =
+        std::clamp(RangesBetween(rival.T_map_body, anchor_.pose()), least_start_error_, kMostRanges);
     Restart(start);
   }
   return false;
@@ -167,7 +178,6 @@ bool Bootstrapper::RuleOutRivals(Result* result) {
 
 void Bootstrapper::RejectFrame(Result* result) {
   frames_.clear();
-  off_ = 1;
   unrivaled_ = false;
   state_.T_map_body = anchor_.pose();
   state_.velocity = anchor_.velocity();
@@ -192,6 +202,7 @@ Eigen::Vector3d Bootstrapper::RecentVelocity() const {
 bool Bootstrapper::ReadyToAlign() const {
   const BootstrapOptions& o = options_.bootstrap;
   if (static_cast<int>(frames_.size()) < std::max(o.min_frames, 3)) return false;
+  if (frames_.back().seq - unrivaled_since_ < kBetweenSearches) return false;
   const BootstrapFrame &first = frames_.front().frame, &last = frames_.back().frame;
   const double moved = (last.T_map_body.p - first.T_map_body.p).norm();
   const double turned = AngularDistance(first.T_map_body.q, last.T_map_body.q);

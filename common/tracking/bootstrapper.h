@@ -76,7 +76,10 @@ class Bootstrapper {
   int rejected_ = 0;                    // frames in a row, or since the map was last found
   std::vector<LocalizedFrame> frames_;  // consecutive, no gaps
   bool unrivaled_ = false;              // this chain: no other pose explains the events as well
-  double off_ = 1;  // how far this chain is from where the body was said to be, ranges of a start search
+  std::int64_t unrivaled_since_ = 0;    // number of the frame that showed it
+  // How far the body is from where it was said to be, in ranges of a start search, at least 1: where this
+  // chain began, and at least the rivals that chains have been given up for.
+  double start_error_ = 1, least_start_error_ = 1;
 };
 
 }  // namespace evit

@@ -80,6 +80,21 @@ TEST_F(BootstrapperTest, ARejectedFrameBreaksTheChain) {
   EXPECT_EQ(Step(source_.room).status, Status::kUnsure);
 }
 
+TEST_F(BootstrapperTest, AsksForMoreFramesWhereTheStartPoseWasFarOff) {
+  SE3 wrong = source_.Truth(t_);
+  wrong.p.x() += 0.16;
+  StartAt(wrong);
+  int frames = 0, found_after = 0;
+  for (int rejected = 0; frames < 100 && found_after == 0; ++frames) {
+    const Bootstrapper::Result result = Step(source_.room);
+    if (result.status == Status::kRejected) ++rejected;
+    if (result.status == Status::kLocalized) found_after = frames + 1 - rejected;
+  }
+  EXPECT_GE(found_after, 15);
+  EXPECT_LE(found_after, 40);
+  EXPECT_LT((bootstrapper_.state().T_map_body.p - source_.Truth(t_).p).norm(), 0.01);
+}
+
 TEST_F(BootstrapperTest, DoesNotWaitForMotion) {
   const SE3 T_map_body = source_.Truth(t_);
   StartAt(T_map_body);

@@ -40,11 +40,25 @@ TEST(EventOnlyTracker, DoesNotFollowAFrameThatFitsWhereNothingCanGetToInTime) {
   for (Eigen::Vector3f& p : moved) p += Eigen::Vector3f(0.1F, 0, 0);
   const Utime jump = 1'103'323;
   const TrackerOutput out = bench.Step(jump, moved);
+  EXPECT_GT(out.quality.contrast(), 0.3);  // it fits
   EXPECT_FALSE(out.has_pose);
   EXPECT_EQ(out.mode, TrackerMode::kTracking);
   const TrackerOutput next = bench.Step(jump + 3'333, bench.room);
   ASSERT_TRUE(next.has_pose);
   EXPECT_LT((next.nodes.back().state.T_map_body.p - bench.Truth(jump + 3'333).p).norm(), 0.02);
+}
+
+TEST(EventOnlyTracker, GoesOnWhereTheClockGoesBack) {
+  const Motion motion;
+  TrackerOptions options = TestOptions();
+  options.event_only = true;
+  Bench bench(options, motion.State(1.0).T_map_body);
+  for (Utime t = 1'000'000; t <= 1'050'000; t += 3'333) bench.Step(t, bench.room);
+  bench.clock = -500'000;
+  TrackerOutput out;
+  for (Utime t = 1'053'000; t <= 1'080'000; t += 3'333) out = bench.Step(t, bench.room);
+  EXPECT_TRUE(out.has_pose);
+  EXPECT_EQ(out.mode, TrackerMode::kTracking);
 }
 
 }  // namespace

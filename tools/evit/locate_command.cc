@@ -111,6 +111,10 @@ PlaceFinderOptions LeaveOut(const std::vector<std::string>& parts, int threads, 
 int Locate(const LocateOptions& o) {
   const Rig rig = LoadRig(o.rig);
   const PipelineOptions options = LoadOptionsFor(rig.camera, o.config);
+  if (options.method != PipelineOptions::Method::kEvit)
+    throw std::runtime_error(o.config +
+                             ": EVT and EVPT need a start pose, only EVIT finds its place; use the "
+                             "settings of EVIT, as config/tracker.textproto");
   LocatingTracker::Options locating;
   locating.search.prior = ParsePlacePrior(o.place.near, o.place.height, o.place.yaw);
   const int threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 4);
