@@ -110,8 +110,7 @@ BodyState EventOnlyTracker::Predict(double seconds) const {
 // A frame may fit elsewhere by chance, where nothing can get to in that time. At the start, or where the
 // clock went back, it is not known so well where the body is.
 bool EventOnlyTracker::IsReachable(const SE3& T_map_body, double seconds) const {
-  return aligned_at_ == 0 ||
-         (T_map_body.p - state_.T_map_body.p).norm() <= kFrameError + options_.failure.max_speed * seconds;
+  return seconds <= 0 || (T_map_body.p - state_.T_map_body.p).norm() <= kFrameError + kMaxSpeed * seconds;
 }
 
 void EventOnlyTracker::Accept(const KeyframeInput& keyframe, double seconds, const SE3& T_map_body) {

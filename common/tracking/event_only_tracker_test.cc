@@ -52,6 +52,7 @@ TEST(EventOnlyTracker, GoesOnWhereTheClockGoesBack) {
   const Motion motion;
   TrackerOptions options = TestOptions();
   options.event_only = true;
+  options.window.motion_model = WindowOptions::MotionModel::kPreviousPose;
   Bench bench(options, motion.State(1.0).T_map_body);
   for (Utime t = 1'000'000; t <= 1'050'000; t += 3'333) bench.Step(t, bench.room);
   bench.clock = -500'000;
