@@ -142,7 +142,7 @@ double Bootstrapper::MeanSignificance() const {
 }
 
 // Whether the chain explains its events better than a false one does: a single frame of that may look as
-// sure, ten in a row do not. Nor do more, where the place is farther off than it was said to be.
+// sure, ten in a row do not. A place that is farther off than a start may be has more to prove.
 bool Bootstrapper::Found() const {
   const double times = unrivaled_ ? 1 : start_error_;
   const double needed = std::min(times * options_.bootstrap.min_frames,
