@@ -21,12 +21,13 @@ constexpr std::size_t kLongestDoubt = 100;  // frames of a chain that may be fal
 constexpr int kRivalSearches = 3;    // before a start counts: one misses the right pose one time in eight
 constexpr double kMostRanges = 4;    // that rivals are looked for in
 constexpr double kWideSearch = 1.5;  // start errors: from here on the range of a start is too narrow
-constexpr std::int64_t kBetweenSearches = 5;  // frames: another one may tell what the first look did not
+constexpr std::int64_t kBetweenSearches = 5;  // frames: another one may show a rival that the first did not
+constexpr double kLongestWait = 2;            // s: for motion, where frames have few events
 constexpr int kPatience = 100;                // frames that do not fit before the start counts as failed
 
-// The distance of two poses, in ranges of a start search.
-double RangesBetween(const SE3& a, const SE3& b) {
-  return std::max((a.p - b.p).norm() / kStart.position, AngularDistance(a.q, b.q) / kStart.rotation);
+// Of a start pose, in ranges of a start search.
+double InRanges(double position, double rotation) {
+  return std::max(position / kStart.position, rotation / kStart.rotation);
 }
 
 bool Beats(const StartRival& rival) { return rival.distinct && rival.significance <= 0; }
@@ -58,6 +59,7 @@ void Bootstrapper::Start(const BodyState& state) {
 
 void Bootstrapper::Restart(const BodyState& state) {
   state_ = state;
+  anchored_at_ = 0;
   if (state.velocity.isZero()) {
     anchor_.Start(state.T_map_body);
   } else {
@@ -70,6 +72,7 @@ void Bootstrapper::Restart(const BodyState& state) {
 
 Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool follows,
                                            const Eigen::Vector3d& rate) {
+  if (anchored_at_ == 0) anchored_at_ = keyframe.t;
   Result result;
   auto field = std::make_shared<SurfaceField>(keyframe.surface, kStart.levels);
   std::shared_ptr<Preintegration> imu;
@@ -104,9 +107,13 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
     return result;
   }
   state_.T_map_body = fit.T_map_body;
-  if (frames_.empty())
-    start_error_ = std::clamp(RangesBetween(fit.T_map_body, anchor_.pose()), least_start_error_, kMostRanges);
-  frames_.push_back({{keyframe.t, fit.T_map_body, imu}, keyframe.seq, field, result.points, significance});
+  if (frames_.empty()) BeginChain(keyframe.t);
+  frames_.push_back({{keyframe.t, fit.T_map_body, imu},
+                     keyframe.seq,
+                     field,
+                     result.points,
+                     significance,
+                     keyframe.n_events});
   if (frames_.size() > kMaxFrames) frames_.erase(frames_.begin());
   state_.velocity = RecentVelocity();
   if (state_.velocity.norm() > options_.failure.max_speed) {
@@ -116,6 +123,7 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
   // A single frame finds some minimum nearly anywhere; several in a row that agree with gyro and constant
   // velocity do not.
   result.status = Result::Status::kUnsure;
+  if (!unrivaled_) start_error_ = StartError();
   if (!Found()) {
     if (frames_.size() >= kLongestDoubt) RejectFrame(&result);
     return result;
@@ -135,6 +143,26 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
   return result;
 }
 
+void Bootstrapper::BeginChain(Utime t) {
+  const SE3& anchor = anchor_.pose();
+  chain_begin_.position = state_.T_map_body.p - anchor.p;
+  chain_begin_.rotation = AngularDistance(anchor.q, state_.T_map_body.q);
+  chain_begin_.seconds = anchor_.velocity().isZero() ? ToSeconds(t - anchored_at_) : 0;
+}
+
+// As far as the body's motion before the chain does not explain it, at the velocity that the chain has.
+double Bootstrapper::StartError() const {
+  const BootstrapFrame &first = frames_.front().frame, &last = frames_.back().frame;
+  Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+  if (last.t > first.t) {
+    const Eigen::Vector3d velocity = (last.T_map_body.p - first.T_map_body.p) / ToSeconds(last.t - first.t);
+    const double along = velocity.dot(chain_begin_.position) / std::max(velocity.squaredNorm(), 1e-12);
+    moved = std::clamp(along, 0.0, std::max(chain_begin_.seconds, 0.0)) * velocity;
+  }
+  const double error = InRanges((chain_begin_.position - moved).norm(), chain_begin_.rotation);
+  return std::clamp(error, least_start_error_, kMostRanges);
+}
+
 double Bootstrapper::MeanSignificance() const {
   double sum = 0;
   for (const LocalizedFrame& f : frames_) sum += f.significance;
@@ -142,9 +170,10 @@ double Bootstrapper::MeanSignificance() const {
 }
 
 // Whether the chain explains its events better than a false one does: a single frame of that may look as
-// sure, ten in a row do not. A place that is farther off than a start may be has more to prove.
+// sure, ten in a row do not. A place that is farther off than a start may be has more to prove, unless the
+// body moves: single frames lose a fast one soon, and so a false chain.
 bool Bootstrapper::Found() const {
-  const double times = unrivaled_ ? 1 : start_error_;
+  const double times = unrivaled_ || HasMoved() ? 1 : start_error_;
   const double needed = std::min(times * options_.bootstrap.min_frames,
                                  std::max(0.5 * kLongestDoubt, 1.0 * options_.bootstrap.min_frames));
   return static_cast<double>(frames_.size()) >= needed && MeanSignificance() >= kFoundSignificance;
@@ -169,8 +198,10 @@ bool Bootstrapper::RuleOutRivals(Result* result) {
     BodyState start = state_;
     start.T_map_body = rival.T_map_body;
     start.velocity.setZero();
-    least_start_error_ =
-        std::clamp(RangesBetween(rival.T_map_body, anchor_.pose()), least_start_error_, kMostRanges);
+    const SE3& anchor = anchor_.pose();
+    const double error =
+        InRanges((rival.T_map_body.p - anchor.p).norm(), AngularDistance(rival.T_map_body.q, anchor.q));
+    least_start_error_ = std::clamp(error, least_start_error_, kMostRanges);
     Restart(start);
   }
   return false;
@@ -199,15 +230,22 @@ Eigen::Vector3d Bootstrapper::RecentVelocity() const {
   return (b.T_map_body.p - a.T_map_body.p) / ToSeconds(b.t - a.t);
 }
 
+bool Bootstrapper::HasMoved() const {
+  const SE3 &first = frames_.front().frame.T_map_body, &last = frames_.back().frame.T_map_body;
+  return (last.p - first.p).norm() >= options_.bootstrap.min_displacement_m ||
+         AngularDistance(first.q, last.q) >= options_.bootstrap.min_rotation_deg * kRadiansPerDegree;
+}
+
 bool Bootstrapper::ReadyToAlign() const {
-  const BootstrapOptions& o = options_.bootstrap;
-  if (static_cast<int>(frames_.size()) < std::max(o.min_frames, 3)) return false;
-  if (frames_.back().seq - unrivaled_since_ < kBetweenSearches) return false;
-  const BootstrapFrame &first = frames_.front().frame, &last = frames_.back().frame;
-  const double moved = (last.T_map_body.p - first.T_map_body.p).norm();
-  const double turned = AngularDistance(first.T_map_body.q, last.T_map_body.q);
-  return moved >= o.min_displacement_m || turned >= o.min_rotation_deg * kRadiansPerDegree ||
-         ToSeconds(last.t - first.t) >= o.max_duration_s;
+  if (static_cast<int>(frames_.size()) < std::max(options_.bootstrap.min_frames, 3)) return false;
+  const double seconds = ToSeconds(frames_.back().frame.t - frames_.front().frame.t);
+  if (HasMoved() || seconds >= kLongestWait) return true;
+  // Frames of few events know the velocity badly, and the window would coast on it until more come.
+  double events = 0;
+  for (const LocalizedFrame& f : frames_) events += f.n_events;
+  return seconds >= options_.bootstrap.max_duration_s &&
+         events >= static_cast<double>(frames_.size()) * options_.min_events &&
+         frames_.back().seq - unrivaled_since_ >= kBetweenSearches;
 }
 
 void Bootstrapper::Align(Result* result) {

@@ -56,12 +56,16 @@ class Bootstrapper {
     std::shared_ptr<const SurfaceField> field;
     AlignmentPoints points;
     double significance;
+    int n_events;
   };
 
   void Restart(const BodyState& state);
   double MeanSignificance() const;
+  void BeginChain(Utime t);
+  double StartError() const;
   void RejectFrame(Result* result);
   Eigen::Vector3d RecentVelocity() const;
+  bool HasMoved() const;
   bool ReadyToAlign() const;
   bool Found() const;
   bool RuleOutRivals(Result* result);
@@ -77,9 +81,15 @@ class Bootstrapper {
   std::vector<LocalizedFrame> frames_;  // consecutive, no gaps
   bool unrivaled_ = false;              // this chain: no other pose explains the events as well
   std::int64_t unrivaled_since_ = 0;    // number of the frame that showed it
-  // How far the body is from where it was said to be, in ranges of a start search, at least 1: where this
-  // chain began, and at least the rivals that chains have been given up for.
+  // How wrong the start pose was, in ranges of a start search, at least 1: by this chain, and at least by the
+  // rivals that chains have been given up for.
   double start_error_ = 1, least_start_error_ = 1;
+  Utime anchored_at_ = 0;  // us: of the first frame after a start; 0: there was none
+  // Where this chain began, seen from the anchor: m (map frame), rad, and s since the anchor's pose was true.
+  struct {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    double rotation = 0, seconds = 0;
+  } chain_begin_;
 };
 
 }  // namespace evit
