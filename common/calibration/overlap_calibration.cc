@@ -26,7 +26,7 @@ constexpr double kMinKappa = 0.05;  // of the overlap found, beyond chance; a wr
 constexpr double kHoldInformation = 1e12;  // information: a micrometre, a microsecond
 constexpr std::size_t kSearchViews = 30;   // of the search, spread over the recording
 
-// Of the rig file's translation, m: what it says of it, or the option.
+// Standard deviations of the rig file's translation, m: those that it states, or the option's.
 Eigen::Vector3d PositionSigma(const Rig& rig, const OverlapCalibrationOptions& o) {
   return rig.T_body_camera_sigma.translation.unaryExpr(
       [&o](double stated) { return stated > 0 ? stated : o.position_sigma; });
@@ -68,15 +68,16 @@ OverlapCost::Values Search(const OverlapCost& cost, const OverlapCost::Values& f
 }
 
 // What errs alike in all views.
-OverlapCalibration::Covariance Common(const std::vector<MapView>& views, const Rig& rig,
+OverlapCalibration::Covariance Common(const std::vector<MapView>& views, const Camera& camera,
                                       const OverlapCalibrationOptions& options) {
   double speed2 = 0;
   for (const MapView& view : views)
     speed2 += view.speed_px * view.speed_px / static_cast<double>(views.size());
-  const double turn = options.registration_px / rig.camera.fx,
+  const double turn = options.registration_px / camera.fx,
                late2 = std::pow(options.registration_px, 2) / (speed2 + 1);
   Eigen::Matrix<double, 7, 1> variances;
-  variances << PositionSigma(rig, options).cwiseAbs2(), Eigen::Vector3d::Constant(turn * turn), late2;
+  variances << Eigen::Vector3d::Constant(std::pow(options.position_sigma, 2)),
+      Eigen::Vector3d::Constant(turn * turn), late2;
   return variances.asDiagonal();
 }
 
@@ -196,7 +197,7 @@ OverlapCalibration CalibrateByOverlap(const std::vector<MapView>& all, const Tra
     const Matrix A = (scale * H + prior).inverse();
     result.covariance = (A * (scale * scale * S + prior) * A).topLeftCorner<7, 7>();
   }
-  result.covariance += Common(views, rig, options);
+  result.covariance += Common(views, rig.camera, options);
   const bool offset_held = HoldUnobservable(result.covariance, &prior, &result.unobservable);
   if (!result.unobservable.empty()) Minimise({cost, before, prior, scale, options.between_steps}, &values);
 

@@ -130,7 +130,6 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
   }
   if (!unrivaled_) {
     unrivaled_ = RuleOutRivals(&result);
-    unrivaled_since_ = keyframe.seq;
   }
   if (!unrivaled_) return result;
   result.status = Result::Status::kLocalized;
@@ -139,22 +138,29 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
   rejected_ = 0;
   least_start_error_ = 1;
   anchor_.Start(fit.T_map_body, state_.velocity);
-  if (ReadyToAlign() && RuleOutRivals(&result)) Align(&result);
+  anchored_at_ = keyframe.t;
+  if (!ReadyToAlign()) return result;
+  if (looked_at_ == keyframe.seq || RuleOutRivals(&result)) {
+    Align(&result);
+  } else if (frames_.empty()) {
+    result.status = Result::Status::kUnsure;  // it starts again at the rival, which has proved nothing yet
+  }
   return result;
 }
 
 void Bootstrapper::BeginChain(Utime t) {
   const SE3& anchor = anchor_.pose();
+  chain_begin_.t = t;
   chain_begin_.position = state_.T_map_body.p - anchor.p;
   chain_begin_.rotation = AngularDistance(anchor.q, state_.T_map_body.q);
   chain_begin_.seconds = anchor_.velocity().isZero() ? ToSeconds(t - anchored_at_) : 0;
 }
 
-// As far as the body's motion before the chain does not explain it, at the velocity that the chain has.
+// What the body's motion before the chain, at the velocity that it has in the chain, does not explain of it.
 double Bootstrapper::StartError() const {
   const BootstrapFrame &first = frames_.front().frame, &last = frames_.back().frame;
   Eigen::Vector3d moved = Eigen::Vector3d::Zero();
-  if (last.t > first.t) {
+  if (HasMoved()) {  // else that velocity is noise
     const Eigen::Vector3d velocity = (last.T_map_body.p - first.T_map_body.p) / ToSeconds(last.t - first.t);
     const double along = velocity.dot(chain_begin_.position) / std::max(velocity.squaredNorm(), 1e-12);
     moved = std::clamp(along, 0.0, std::max(chain_begin_.seconds, 0.0)) * velocity;
@@ -184,6 +190,7 @@ bool Bootstrapper::Found() const {
 // where one does; where one explains it better the chain starts again from there.
 bool Bootstrapper::RuleOutRivals(Result* result) {
   const LocalizedFrame& newest = frames_.back();
+  looked_at_ = newest.seq;
   const auto find = [&](double times) {
     const StartRange range{times * kStart.position, times * kStart.rotation, kStart.levels};
     return FindRival(alignment_, *newest.field, result->points, state_.T_map_body, range, newest.seq,
@@ -201,7 +208,8 @@ bool Bootstrapper::RuleOutRivals(Result* result) {
     const SE3& anchor = anchor_.pose();
     const double error =
         InRanges((rival.T_map_body.p - anchor.p).norm(), AngularDistance(rival.T_map_body.q, anchor.q));
-    least_start_error_ = std::clamp(error, least_start_error_, kMostRanges);
+    // Once the anchor has moved to the false place, it says nothing of the start pose any more.
+    least_start_error_ = std::clamp(error, unrivaled_ ? start_error_ : least_start_error_, kMostRanges);
     Restart(start);
   }
   return false;
@@ -238,14 +246,14 @@ bool Bootstrapper::HasMoved() const {
 
 bool Bootstrapper::ReadyToAlign() const {
   if (static_cast<int>(frames_.size()) < std::max(options_.bootstrap.min_frames, 3)) return false;
-  const double seconds = ToSeconds(frames_.back().frame.t - frames_.front().frame.t);
-  if (HasMoved() || seconds >= kLongestWait) return true;
+  const double seconds = ToSeconds(frames_.back().frame.t - chain_begin_.t);
+  if (HasMoved() || seconds >= std::max(kLongestWait, options_.bootstrap.max_duration_s)) return true;
   // Frames of few events know the velocity badly, and the window would coast on it until more come.
   double events = 0;
   for (const LocalizedFrame& f : frames_) events += f.n_events;
   return seconds >= options_.bootstrap.max_duration_s &&
          events >= static_cast<double>(frames_.size()) * options_.min_events &&
-         frames_.back().seq - unrivaled_since_ >= kBetweenSearches;
+         frames_.back().seq - looked_at_ >= kBetweenSearches;
 }
 
 void Bootstrapper::Align(Result* result) {

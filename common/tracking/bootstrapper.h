@@ -80,13 +80,14 @@ class Bootstrapper {
   int rejected_ = 0;                    // frames in a row, or since the map was last found
   std::vector<LocalizedFrame> frames_;  // consecutive, no gaps
   bool unrivaled_ = false;              // this chain: no other pose explains the events as well
-  std::int64_t unrivaled_since_ = 0;    // number of the frame that showed it
+  std::int64_t looked_at_ = 0;          // number of the frame in which rivals were looked for last
   // How wrong the start pose was, in ranges of a start search, at least 1: by this chain, and at least by the
   // rivals that chains have been given up for.
   double start_error_ = 1, least_start_error_ = 1;
-  Utime anchored_at_ = 0;  // us: of the first frame after a start; 0: there was none
-  // Where this chain began, seen from the anchor: m (map frame), rad, and s since the anchor's pose was true.
+  Utime anchored_at_ = 0;  // us: of the first frame after the anchor's start; 0: there was none
+  // When this chain began (us) and where, seen from the anchor: m (map frame), rad, and s since its start.
   struct {
+    Utime t = 0;
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     double rotation = 0, seconds = 0;
   } chain_begin_;

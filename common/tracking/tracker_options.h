@@ -46,7 +46,7 @@ struct BootstrapOptions {
   int min_frames = 10;               // localised frames before velocities and biases are solved for
   double min_displacement_m = 0.02;  // motion of the body, or
   double min_rotation_deg = 2;       // of the body, or
-  double max_duration_s = 0.15;      // the window takes over after this long anyway
+  double max_duration_s = 0.15;      // after this long without either, if frames have min_events on average
   double max_gyro_bias = 0.1;        // rad/s: a larger solution is refused (map not upright, wrong rig)
   double max_accel_bias = 0.6;       // m/s^2
   double min_contrast = 0;  // 0..1: by how much points must lie better on a frame's events than beside them
