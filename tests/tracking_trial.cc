@@ -12,7 +12,6 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
-#include <opencv2/core.hpp>
 #include <optional>
 #include <random>
 #include <stdexcept>
@@ -91,10 +90,7 @@ class Run {
 
   void Track() {
     while (const auto keyframe = builder_.Next()) {
-      const cv::Mat surface(keyframe->height, keyframe->width, CV_8UC1,
-                            const_cast<std::uint8_t*>(keyframe->surface.data()));
-      const KeyframeInput input{keyframe->utime, keyframe->seq, static_cast<int>(keyframe->n_events),
-                                surface.clone(), keyframe->imu, keyframe->imu_gap};
+      const KeyframeInput input = InputOf(*keyframe);
       if (!answered_ || !tracker_->Suffices(*answered_, tracker_->QueryAfter(input))) Ask(input);
       last_ = tracker_->Process(input);
       builder_.SetFeedbackFor(keyframe->seq, FeedbackOf(last_));
@@ -190,21 +186,23 @@ void Try(const Recording& recording, const std::string& start, double length, co
   };
   const TrajectoryError error = run.error();
   const Consistency consistency = run.consistency();
+  const bool wrong = run.wrong();
   std::printf("| %s | %.2f | %.2f | %.3f / %.3f | | %.2f, %.2f | %.2f | %s |\n", start.c_str(),
               after(run.poses()), after(run.tracking()), 100 * error.position_rmse,
               kDegreesPerRadian * error.orientation_rmse, consistency.position.mean_per_dof(),
               consistency.orientation.mean_per_dof(), 100 * error.position_max,
-              run.wrong()    ? "WRONG"
+              wrong          ? "WRONG"
               : run.tracks() ? "TRACKING"
                              : "LOST");
   std::fflush(stdout);
-  if (run.wrong())
+  if (wrong) {
     ++sums->wrong;
-  else if (!run.tracks())
+  } else if (!run.tracks()) {
     ++sums->lost;
-  else
+  } else {
     sums->Add(after(run.poses()), after(run.tracking()), error, consistency);
-  if (!run.wrong() && run.tracks()) sums->Compare(run.poses());
+    sums->Compare(run.poses());
+  }
 }
 
 int Main(int n, char** argument) {

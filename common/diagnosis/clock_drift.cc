@@ -126,8 +126,7 @@ std::optional<Finding> CheckClockDrift(const MapIndex& map, const World& world, 
           100 * std::abs(clock.rate), clock.rate > 0 ? "slow" : "fast", 1e3 * std::abs(clock.rate) * seconds,
           seconds),
       "stamp events, IMU and poses by one clock; one that is off by a percent counts ticks of another rate "
-      "than "
-      "the driver assumes"};
+      "than the driver assumes"};
 }
 
 }  // namespace evit::diagnosis

@@ -19,6 +19,7 @@ constexpr double kStrayInLine = 0.02;  // of those: damaged data, not a pixel
 constexpr double kAlikeLines = 0.6;    // of what fires further out
 constexpr int kFurtherLines = 5;       // lines
 constexpr std::ptrdiff_t kWidestLines = 12;  // one part in so many: a wider one is an area
+constexpr double kManyLines = 0.2;           // of a sensor's: no defect, but a camera that skips pixels
 
 // Events of each row or column; of a pixel at most ten times the usual, so that no hot one hides a dead line.
 std::vector<std::int64_t> LineCounts(const EventCensus& e, bool rows) {
@@ -84,8 +85,12 @@ Finding CheckDeadLines(const EventCensus& events) {
   if (dead.columns > 0)
     what += FormatText("%s%d columns of pixels, the first is %d, ", what.empty() ? "" : "and ", dead.columns,
                        dead.first_column);
+  what += "never fire though those beside them do.";
+  if (dead.rows > kManyLines * events.height() || dead.columns > kManyLines * events.width())
+    return {"dead-lines", Severity::kError, figure, what,
+            "switch off what skips rows or columns of pixels (subsampling, filters) in camera and driver"};
   return {
-      "dead-lines", Severity::kWarning, figure, what + "never fire though those beside them do.",
+      "dead-lines", Severity::kWarning, figure, what,
       "look for masked rows or columns, or lost packets, in camera and driver; EVIT tracks with the rest"};
 }
 

@@ -56,5 +56,10 @@ TEST(DeadLines, OneLineIsNoFinding) {
             Severity::kWarning);
 }
 
+TEST(DeadLines, ManyAreACameraThatSkipsPixels) {
+  EXPECT_EQ(CheckDeadLines(EventsBut([](int x, int y) { return x % 2 == 1 || y % 2 == 1; })).severity,
+            Severity::kError);
+}
+
 }  // namespace
 }  // namespace evit::diagnosis

@@ -7,11 +7,10 @@ namespace evit::diagnosis {
 namespace {
 
 constexpr double kOfPixels = 0.003, kOnEvents = 0.2;  // so few fire that nothing is told of the map
-constexpr double kLeastYield =
-    0.06;                           // events of a pixel that an edge moves over; good ones have 0.14 and more
-constexpr double kOnMap = 0.15;     // of what fires, of 1: more than chance
-constexpr double kOnPoints = 0.03;  // of the points, of 1: no more than by chance
-constexpr double kCrowded = 0.8;    // of the image within reach of the map: then events are by chance, too
+constexpr double kLeastYield = 0.06;  // events of a pixel that an edge moves over; good ones: 0.14 and more
+constexpr double kOnMap = 0.15;       // of what fires, of 1: more than chance
+constexpr double kOnPoints = 0.03;    // of the points, of 1: no more than by chance
+constexpr double kCrowded = 0.8;      // of the image within reach of the map: then events are by chance, too
 
 }  // namespace
 

@@ -5,25 +5,11 @@
 
 #include "common/diagnosis/excerpt_views.h"
 #include "common/geometry/degrees.h"
-#include "common/geometry/so3.h"
 
 namespace evit::diagnosis {
 namespace {
 
 using Kind = Misplacement::Kind;
-
-// First `a`, then `b` of the same kind.
-Misplacement Together(const Misplacement& a, const Misplacement& b) {
-  Misplacement sum = a;
-  if (a.kind == Kind::kRotation) {
-    sum.value = LogSO3(ExpSO3(a.value) * ExpSO3(b.value));
-  } else if (a.kind == Kind::kScale || a.kind == Kind::kFocal) {
-    sum.value.x() = (1 + a.value.x()) * (1 + b.value.x()) - 1;
-  } else {
-    sum.value += b.value;
-  }
-  return sum;
-}
 
 }  // namespace
 
@@ -48,28 +34,7 @@ double Tolerance(Kind kind) {
 }
 
 World Corrected(World world, const Misplacement& misplacement) {
-  const Eigen::Vector3d& value = misplacement.value;
-  Camera& camera = world.rig.camera;
-  switch (misplacement.kind) {
-    case Kind::kTime:
-      world.rig.camera_time_offset += std::llround(1e6 * value.x());
-      break;
-    case Kind::kRotation:
-      world.rig.T_body_camera.q = (world.rig.T_body_camera.q * ExpSO3(value)).normalized();
-      break;
-    case Kind::kShift:
-      for (StampedPose& s : world.truth) s.pose.p += value;
-      break;
-    case Kind::kScale:
-      for (StampedPose& s : world.truth) s.pose.p *= 1 + value.x();
-      break;
-    case Kind::kFocal:
-      camera.fx *= 1 + value.x(), camera.fy *= 1 + value.x();
-      break;
-    case Kind::kCentre:
-      camera.cx += value.x(), camera.cy += value.y();
-      break;
-  }
+  Correct(misplacement, &world.rig, &world.truth);
   return world;
 }
 

@@ -212,6 +212,43 @@ Misplacement FindMisplacement(const Rig& rig, const Trajectory& body, const std:
   return Fitter(rig, body, views, options).Fit(kind);
 }
 
+// As Place() does for one view.
+void Correct(const Misplacement& misplacement, Rig* rig, Trajectory* body) {
+  const Eigen::Vector3d& value = misplacement.value;
+  switch (misplacement.kind) {
+    case Kind::kTime:
+      rig->camera_time_offset += std::llround(1e6 * value.x());
+      break;
+    case Kind::kRotation:
+      rig->T_body_camera.q = (rig->T_body_camera.q * ExpSO3(value)).normalized();
+      break;
+    case Kind::kShift:
+      for (StampedPose& s : *body) s.pose.p += value;
+      break;
+    case Kind::kScale:
+      for (StampedPose& s : *body) s.pose.p *= 1 + value.x();
+      break;
+    case Kind::kFocal:
+      rig->camera.fx *= 1 + value.x(), rig->camera.fy *= 1 + value.x();
+      break;
+    case Kind::kCentre:
+      rig->camera.cx += value.x(), rig->camera.cy += value.y();
+      break;
+  }
+}
+
+Misplacement Together(const Misplacement& a, const Misplacement& b) {
+  Misplacement sum = a;
+  if (a.kind == Kind::kRotation) {
+    sum.value = LogSO3(ExpSO3(a.value) * ExpSO3(b.value));
+  } else if (a.kind == Kind::kScale || a.kind == Kind::kFocal) {
+    sum.value.x() = (1 + a.value.x()) * (1 + b.value.x()) - 1;
+  } else {
+    sum.value += b.value;
+  }
+  return sum;
+}
+
 MapEventOverlap MeasureCorrected(const Rig& rig, const Trajectory& body, const std::vector<MapView>& views,
                                  const Misplacement& misplacement, const OverlapOptions& options) {
   MapEventOverlap overlap;

@@ -46,6 +46,12 @@ std::vector<Misplacement> FindMisplacements(const Rig& rig, const Trajectory& bo
 Misplacement FindMisplacement(const Rig& rig, const Trajectory& body, const std::vector<MapView>& views,
                               Misplacement::Kind kind, const MisplacementOptions& options = {});
 
+/// Takes it out of a rig and the body's poses, as if it had never been there.
+void Correct(const Misplacement& misplacement, Rig* rig, Trajectory* body);
+
+/// First `a`, then `b` of the same kind.
+Misplacement Together(const Misplacement& a, const Misplacement& b);
+
 /// How map and events lie on each other once the misplacement is corrected, in all views. A correction that
 /// only some points suggest, by chance, does not explain what fires.
 MapEventOverlap MeasureCorrected(const Rig& rig, const Trajectory& body, const std::vector<MapView>& views,

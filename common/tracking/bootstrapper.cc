@@ -128,9 +128,7 @@ Bootstrapper::Result Bootstrapper::Process(const KeyframeInput& keyframe, bool f
     if (frames_.size() >= kLongestDoubt) RejectFrame(&result);
     return result;
   }
-  if (!unrivaled_) {
-    unrivaled_ = RuleOutRivals(&result);
-  }
+  if (!unrivaled_) unrivaled_ = RuleOutRivals(&result);
   if (!unrivaled_) return result;
   result.status = Result::Status::kLocalized;
   result.reason = "localising high-rate frames";
@@ -264,6 +262,7 @@ void Bootstrapper::Align(Result* result) {
   if (!aligned.success) {
     result->reason = "visual-inertial alignment rejected: " + aligned.reason;
     frames_.erase(frames_.begin(), frames_.begin() + static_cast<std::ptrdiff_t>(frames_.size() / 2));
+    chain_begin_.t = frames_.front().frame.t;  // the rest has to last as long again
     return;
   }
   const auto n_window = std::min<std::size_t>(frames_.size(), options_.window.size);

@@ -12,7 +12,6 @@ namespace evit {
 namespace {
 
 constexpr StartRange kRange{0.05, 0.05, 3};  // how far a body may get between two frames, and then some
-constexpr double kMaxSpeed = 6;              // m/s, of the body
 constexpr double kFrameError = 0.03;         // m: that a frame's pose may have besides
 constexpr int kPatience = 150;               // frames that do not fit before it says LOST: at rest none does
 
@@ -110,7 +109,8 @@ BodyState EventOnlyTracker::Predict(double seconds) const {
 // A frame may fit elsewhere by chance, where nothing can get to in that time. At the start, or where the
 // clock went back, it is not known so well where the body is.
 bool EventOnlyTracker::IsReachable(const SE3& T_map_body, double seconds) const {
-  return seconds <= 0 || (T_map_body.p - state_.T_map_body.p).norm() <= kFrameError + kMaxSpeed * seconds;
+  return seconds <= 0 ||
+         (T_map_body.p - state_.T_map_body.p).norm() <= kFrameError + options_.failure.max_speed * seconds;
 }
 
 void EventOnlyTracker::Accept(const KeyframeInput& keyframe, double seconds, const SE3& T_map_body) {

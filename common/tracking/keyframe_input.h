@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "common/events/keyframe.h"
 #include "common/imu/imu_sample.h"
 
 namespace evit {
@@ -17,5 +18,8 @@ struct KeyframeInput {
   std::vector<ImuSample> imu;  // from the previous keyframe's stamp to this one's, both ends included
   Utime imu_gap = 0;           // us: longest hole in those samples
 };
+
+/// Of a keyframe as KeyframeBuilder makes it, with an image of its own.
+KeyframeInput InputOf(const Keyframe& keyframe);
 
 }  // namespace evit

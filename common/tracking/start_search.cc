@@ -20,8 +20,7 @@ constexpr std::size_t kFitPoints = 1200;    // to localise by
 constexpr std::size_t kRivalPoints = 4000;  // to compare a rival by
 constexpr std::int64_t kOtherPlaces = 331;  // added to a frame's number: other places than its neighbours try
 constexpr int kWeakWays = 2;                // directions of which a frame says least
-constexpr int kWeakSteps = 8;               // along each for once the range
-constexpr double kWeakStep = 0.0125;        // m: at most, for a valley is a few centimetres wide
+constexpr int kWeakSteps = 8;               // along each for once the range: centimetres
 constexpr double kSameValley = 0.03;        // m, rad
 constexpr double kFarthest = 2;  // times the range: what is found beyond has nothing to do with the start
 constexpr double kFarthestRival =
@@ -56,12 +55,11 @@ std::vector<SE3> PosesAlongWeakWays(const AlignmentSettings& settings, const Sur
   scale << Eigen::Vector3d::Constant(range.position), Eigen::Vector3d::Constant(range.rotation);
   const Matrix6d information = EvaluateAlignmentExactly(settings, field, points, centre).hessian;
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(scale.asDiagonal() * information * scale.asDiagonal());
-  const double per_range = std::max<double>(kWeakSteps, range.position / kWeakStep);
-  const auto steps = static_cast<int>(farthest * per_range);
+  const auto steps = static_cast<int>(farthest * kWeakSteps);
   std::vector<SE3> best;
   for (int way = 0; way < kWeakWays; ++way) {
     for (const int side : {-1, 1}) {
-      const Vector6d step = scale.cwiseProduct(solver.eigenvectors().col(way)) * side / per_range;
+      const Vector6d step = scale.cwiseProduct(solver.eigenvectors().col(way)) * side / kWeakSteps;
       double before = AlignmentSignificance(settings, field, points, centre), most = 0;
       bool climbing = false;
       for (int k = 1; k <= steps; ++k) {

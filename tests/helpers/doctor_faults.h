@@ -14,7 +14,14 @@ struct Fault {
   std::function<void(Sample*)> make;
   std::function<bool(const Sample&)> applies{};  // where it is one, and can show; empty: everywhere
 };
-const std::vector<Fault>& Faults();
+/// All of the lists below.
+std::vector<Fault> Faults();
+/// Of the sensor, its events and their stamps.
+std::vector<Fault> EventFaults();
+/// Of the IMU and its clock.
+std::vector<Fault> ImuFaults();
+/// Of rig file, known poses, start and map, and of the camera's clock against the poses.
+std::vector<Fault> PlaceFaults();
 
 /// Whether any of `checks` is named first or second; `said` as below.
 bool IsNamed(const std::vector<std::string>& checks, const diagnosis::Findings& findings, std::string* said);

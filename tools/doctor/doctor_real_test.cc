@@ -112,8 +112,9 @@ TEST_F(DoctorRealTest, MostFaultsAreNamedFirstOrSecond) {
   const bool all = std::string(faults) == "all";
   int n = 0, n_named = 0;
   std::string missed;
-  for (std::size_t k = 0; k < Faults().size(); ++k) {
-    const Fault& fault = Faults()[k];
+  const std::vector<Fault> list = Faults();
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const Fault& fault = list[k];
     if (!all && std::string(faults) != "1" && fault.name.find(faults) == std::string::npos) continue;
     bool done = false;
     for (std::size_t i = 0; i < recordings.size() && (all || !done); ++i) {

@@ -16,17 +16,6 @@ namespace {
 
 constexpr Utime kPiece = 10'000;  // us of events at a time
 
-KeyframeInput InputOf(Keyframe* keyframe) {
-  KeyframeInput input;
-  input.t = keyframe->utime;
-  input.seq = keyframe->seq;
-  input.n_events = static_cast<int>(keyframe->n_events);
-  input.surface = cv::Mat(keyframe->height, keyframe->width, CV_8UC1, keyframe->surface.data()).clone();
-  input.imu = std::move(keyframe->imu);
-  input.imu_gap = keyframe->imu_gap;
-  return input;
-}
-
 // A tracker, and all that it asks, answered at once.
 class Session {
  public:
@@ -114,8 +103,8 @@ LocatorResult RunLocator(const RecordedStreams& streams, const PreparedMap& map,
     played += kPiece;
     builder.AddEvents(events, events.size() == 0 ? to : std::max(to, events.t.back()));
     for (; sample != streams.imu().end() && sample->t <= t + kPiece; ++sample) builder.AddImu(*sample);
-    while (auto keyframe = builder.Next()) {
-      const TrackerOutput output = session.Process(InputOf(&*keyframe), &result);
+    while (const auto keyframe = builder.Next()) {
+      const TrackerOutput output = session.Process(InputOf(*keyframe), &result);
       builder.SetFeedbackFor(keyframe->seq, FeedbackOf(output));
       const bool tracking = output.mode == TrackerMode::kTracking;
       if (result.found) {
