@@ -47,7 +47,7 @@ TEST(EventYield, EdgesThatHardlyFireAreTheCamerasFault) {
 }
 
 TEST(EventYield, FewEventsOfAFewEdgesAreGood) {
-  EXPECT_FALSE(YieldFound(test::Lines(8), test::LineWorld(), test::LineWorld(), 1));
+  EXPECT_FALSE(YieldFound(test::Lines(8), test::LineWorld(), test::LineWorld(), 0.25));
 }
 
 TEST(EventYield, SoFewEventsSayNothingOfTheMapsPlace) {
