@@ -5,17 +5,12 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "common/bus/log_file.h"
 #include "common/config/rig_file.h"
 #include "common/map/map_file.h"
 #include "tests/helpers/paths.h"
 #include "tests/helpers/sample_messages.h"
-#include "tools/pictures/consistency_plot.h"
-#include "tools/pictures/run_plot.h"
-#include "tools/run/report_writer.h"
 #include "tools/run/run_inputs.h"
 
 namespace evit::run {
@@ -230,87 +225,6 @@ TEST_F(RunFilesTest, UnwritableOutputIsNamed) {
   std::ofstream(Path("file")) << "";
   job_.out = Path("file") + "/out";
   EXPECT_THAT([&] { PrepareRun(job_); }, ThrowsMessage<std::runtime_error>(HasSubstr("file/out")));
-}
-
-TEST_F(RunFilesTest, ReportHoldsTheErrors) {
-  Trajectory truth, estimate;
-  for (int k = 0; k <= 100; ++k) truth.push_back({kStart + Utime{10'000} * k, At(k)});
-  for (int k = 10; k <= 60; ++k) {
-    SE3 pose = At(k);
-    pose.p.y() += 0.02;
-    estimate.push_back({kStart + Utime{10'000} * k, pose});
-  }
-  report::Report report;
-  report.set_lossless(true);
-  FillErrors(truth, estimate, &report);
-  WriteReport(Path("report.json"), report);
-  nlohmann::json json;
-  std::ifstream(Path("report.json")) >> json;
-  EXPECT_EQ(json["lossless"], true);
-  EXPECT_EQ(json["ate"][0]["alignment"], "none");
-  EXPECT_NEAR(json["ate"][0]["all"]["position_rmse_cm"], 2, 1e-6);
-  EXPECT_EQ(json["ate"][1]["alignment"], "first pair");
-  EXPECT_NEAR(json["ate"][1]["all"]["position_rmse_cm"], 0, 1e-6);
-  EXPECT_TRUE(json["ate"][0].contains("at_50_percent"));
-  EXPECT_FALSE(json["ate"][0].contains("at_100_percent"));  // not reached
-  EXPECT_THAT([&] { WriteReport(Path("no/report.json"), report); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("no/report.json")));
-}
-
-TEST_F(RunFilesTest, ReportHasNoErrorOfTooFewPairs) {
-  Trajectory truth, estimate;
-  for (int k = 0; k <= 100; ++k) estimate.push_back({kStart + Utime{10'000} * k, At(k)});
-  truth = {estimate[0], estimate[80]};
-  report::Report report;
-  FillErrors(truth, estimate, &report);
-  EXPECT_EQ(report.ate_size(), 0);
-  EXPECT_THAT(report.not_scored(), HasSubstr("only 2 pairs"));
-}
-
-TEST_F(RunFilesTest, ReportAndPlotShowConsistency) {
-  Trajectory truth, estimate;
-  Covariances covariances;
-  for (int k = 0; k <= 100; ++k) {
-    const Utime t = kStart + Utime{10'000} * k;
-    truth.push_back({t, At(k)});
-    SE3 pose = At(k);
-    pose.p.y() += 0.02;
-    estimate.push_back({t, pose});
-    covariances.push_back({t, 1e-4 * Matrix6d::Identity()});
-  }
-  const Consistency consistency = ConsistencyOf(truth, estimate, covariances);
-  report::Report report;
-  FillConsistency(consistency, &report);
-  WriteReport(Path("report.json"), report);
-  nlohmann::json json;
-  std::ifstream(Path("report.json")) >> json;
-  EXPECT_NEAR(json["consistency"]["position_nees"]["mean_per_dof"], 4.0 / 3, 1e-6);  // 2 cm at 1 cm sigma
-  EXPECT_NEAR(json["consistency"]["orientation_nees"]["mean"], 0, 1e-6);
-  EXPECT_EQ(json["consistency"]["pose_nees"]["dof"], 6);
-  EXPECT_EQ(json["consistency"]["pose_nees"]["share_within_95"], 1);
-  for (const bool scored : {true, false}) {
-    pictures::PlotConsistency(Path("plot.png"), "title", scored ? consistency : Consistency{});
-    const cv::Mat image = cv::imread(Path("plot.png"));
-    EXPECT_GT(image.cols, 1000);
-    cv::Mat bounds;
-    cv::inRange(image, cv::Scalar(170, 170, 170), cv::Scalar(170, 170, 170), bounds);
-    EXPECT_EQ(cv::countNonZero(bounds) > 5000, scored);  // the legend is there always
-  }
-}
-
-TEST_F(RunFilesTest, PlotsWithAndWithoutTruthOrPoses) {
-  Trajectory truth;
-  for (int k = 0; k <= 100; ++k) truth.push_back({kStart + Utime{10'000} * k, At(k)});
-  for (const auto& [a, b] : {std::pair(truth, truth), std::pair(Trajectory(), truth),
-                             std::pair(truth, Trajectory()), std::pair(Trajectory(), Trajectory())}) {
-    pictures::PlotRun(Path("plot.png"), "title", a, b);
-    const cv::Mat image = cv::imread(Path("plot.png"));
-    EXPECT_GT(image.cols, 1000);
-    // Blue, the colour of the path and of z, shows where and only where there are poses.
-    cv::Mat blue;
-    cv::inRange(image, cv::Scalar(178, 114, 0), cv::Scalar(178, 114, 0), blue);
-    EXPECT_EQ(cv::countNonZero(blue) > 500, !b.empty());
-  }
 }
 
 }  // namespace

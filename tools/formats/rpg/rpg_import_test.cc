@@ -2,19 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <functional>
-#include <iomanip>
-#include <random>
 #include <sstream>
 
 #include "common/config/rig_file.h"
-#include "common/files/decimal_time.h"
-#include "tests/helpers/imported_log.h"
+#include "tests/helpers/rpg_folder.h"
 
 namespace evit::formats {
 namespace {
@@ -22,53 +16,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-
-// Half a second from t = 0 on, as RPG's recordings begin there: events with 30 ms of silence, IMU at 1 kHz.
-class RpgImportTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    std::filesystem::create_directories(In(""));
-    std::mt19937 rng(3);
-    std::ofstream events(In("events.txt")), imu(In("imu.txt")), truth(In("groundtruth.txt"));
-    for (Utime t = 0; t < 500'000; t += t == 200'000 ? 30'000 : rng() % 9) {
-      made_.events.push_back(t, rng() % 240, rng() % 180, rng() % 2);
-      events << DecimalSeconds(t) << "000 " << made_.events.x.back() << ' ' << made_.events.y.back() << ' '
-             << int{made_.events.p.back()} << '\n';
-    }
-    for (int k = 0; k < 500; ++k) {
-      const ImuSample s{Utime{1000} * k + 3, {k / 8.0, 0.1, -2e-5}, {9.81, 1.0 / 3, -0.0625 * k}};
-      made_.imu.push_back(s);
-      imu << DecimalSeconds(s.t) << std::setprecision(17);
-      for (const auto& v : {s.accel, s.gyro}) imu << ' ' << v.x() << ' ' << v.y() << ' ' << v.z();
-      imu << '\n';
-    }
-    for (int k = 0; k < 100; ++k) {
-      const double h = k % 2 == 0 ? 0.5 : -0.5;  // exactly of length 1
-      made_.truth.push_back({Utime{5000} * k, {Eigen::Quaterniond(0.5, h, 0.5, 0.5), {0.125 * k, 1, -0.3}}});
-      truth << TumLine(made_.truth.back()) << '\n';
-    }
-    std::ofstream(In("calib.txt"))
-        << "199.092366542 198.82882047 132.192071378 110.712660011 -0.368436311798 "
-           "0.150947243557 -0.000296130534385 -0.000759431726241 0.0\n";
-    job_.folder = In("");
-    job_.out = (folder_ / "out.lcmlog").string();
-    job_.any_imu = true;  // made-up numbers
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string In(const std::string& name) const { return (folder_ / "in" / name).string(); }
-  ImportSummary Import() const {
-    return ImportRpg(job_, [](double) {});
-  }
-  void Append(const std::string& name, const std::string& text) const {
-    std::ofstream(In(name), std::ios::app) << text;
-  }
-
-  const std::filesystem::path folder_ =
-      std::filesystem::path(::testing::TempDir()) / ("rpg_" + std::to_string(getpid()));
-  ImportedLog made_;
-  RpgImport job_;
-};
 
 TEST_F(RpgImportTest, StreamsRoundTrip) {
   const ImportSummary summary = Import();
@@ -99,107 +46,6 @@ TEST_F(RpgImportTest, InvalidEntriesAreCountedAndDropped) {
   ExpectSame(out.events, made_.events);
   ExpectSame(out.imu, made_.imu);
   ExpectSame(out.truth, made_.truth);
-}
-
-// What other programs write; each must give the same events.
-TEST_F(RpgImportTest, EventsInEveryFormThatHasOneMeaning) {
-  constexpr int kEvents = 4000;
-  const auto write = [&](const std::string& head, const std::string& end,
-                         const std::function<std::string(Utime, int, int, int)>& row) {
-    std::ofstream out(In("events.txt"), std::ios::binary);
-    out << head;
-    for (int k = 0; k < kEvents; ++k)
-      out << row(made_.events.t[k], made_.events.x[k], made_.events.y[k], made_.events.p[k]) << end;
-  };
-  const auto text = [](const char* format, auto... values) {
-    char row[200];
-    std::snprintf(row, sizeof row, format, values...);
-    return std::string(row);
-  };
-  const auto seconds = [](Utime t) { return 1e-6 * static_cast<double>(t); };
-  const std::vector<std::function<void()>> forms = {
-      [&] {
-        write("240 180\n", "\n",
-              [&](Utime t, int x, int y, int p) { return text("%.6f %d %d %d", seconds(t), x, y, p); });
-      },
-      [&] {
-        write("", "\n", [&](Utime t, int x, int y, int p) {
-          return text("%.18e %.18e %.18e %.18e", seconds(t), 1.0 * x, 1.0 * y, 1.0 * p);
-        });
-      },
-      [&] {
-        write("\xEF\xBB\xBFt,x,y,p\r\n", "\r\n",
-              [&](Utime t, int x, int y, int p) { return text("%.6f,%d.0,%d.0,%d", seconds(t), x, y, p); });
-      },
-      [&] {
-        write("# t x y p\r", "\r", [&](Utime t, int x, int y, int p) {
-          return text("%.6f;%d;%d;%s", seconds(t), x, y, p ? "True" : "False");
-        });
-      },
-      [&] {
-        write("", "\n", [&](Utime t, int x, int y, int p) {
-          return text("%.6f %d %d %d", seconds(t), x, y, 2 * p - 1);
-        });
-      },
-      [&] {
-        write("", "\n", [&](Utime t, int x, int y, int p) {
-          return text("%lld %d %d %d", static_cast<long long>(t), x, y, p);
-        });
-      },
-      [&] {
-        write("ts.secs,ts.nsecs,x,y,polarity\n", "\n", [&](Utime t, int x, int y, int p) {
-          return text("%lld,%lld,%d,%d,%d", static_cast<long long>(t / 1'000'000),
-                      static_cast<long long>(t % 1'000'000 * 1000), x, y, p);
-        });
-      },
-      [&] {
-        write("", "\n", [&](Utime t, int x, int y, int p) {
-          return text("%d,%d,%d,%lld", x, y, p, static_cast<long long>(t));
-        });
-      },
-      [&] {
-        write(",x,y,polarity,timestamp\n", "\n", [&](Utime t, int x, int y, int p) {
-          return text("7,%d,%d,%d,%lld", x, y, p, static_cast<long long>(t));
-        });
-      },
-      [&] {
-        write("", "\n",
-              [&](Utime t, int x, int y, int p) { return text("%d %d %.6f %d", x, y, seconds(t), p); });
-      },
-      [&] {
-        write("x y t[ns] p\n", "\n", [&](Utime t, int x, int y, int p) {
-          return text("%d %d %lld %d", x, y, static_cast<long long>(1000 * t), p);
-        });
-      },
-      [&] {
-        write("", "\n",
-              [&](Utime t, int x, int y, int p) { return text("%.3f %d %d %d", 1e3 * seconds(t), x, y, p); });
-      },
-      [&] {
-        write("secs,nsecs,x,y,p\n", "\n", [&](Utime t, int x, int y, int p) {
-          return text("%lld,%lld,%d,%d,%s", static_cast<long long>(t / 1'000'000),
-                      static_cast<long long>(t % 1'000'000 * 1000), x, y, p ? "pos" : "neg");
-        });
-      },
-      [&] {
-        write("% recorded with\n% geometry 240x180\n", "\n", [&](Utime t, int x, int y, int p) {
-          return text("%d %d %d %lld", p, x, y, static_cast<long long>(t));
-        });
-      },
-      [&] {
-        write("t (\xC2\xB5s),x,y,p\n", "\n", [&](Utime t, int x, int y, int p) {
-          return text("%lld,%d,%d,%s", static_cast<long long>(t), x, y, p ? "+" : "-");
-        });
-      },
-  };
-  made_.events.t.resize(kEvents), made_.events.x.resize(kEvents), made_.events.y.resize(kEvents),
-      made_.events.p.resize(kEvents);
-  for (std::size_t k = 0; k < forms.size(); ++k) {
-    SCOPED_TRACE(k);
-    forms[k]();
-    Import();
-    ExpectSame(ReadImported(job_.out).events, made_.events);
-  }
 }
 
 TEST_F(RpgImportTest, OneStampInTheFutureCostsItselfOnly) {

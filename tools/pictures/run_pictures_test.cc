@@ -1,0 +1,55 @@
+// Pictures of a run: what they show, and what they leave out where there is nothing to show.
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "tests/helpers/temporary_folder.h"
+#include "tools/pictures/consistency_plot.h"
+#include "tools/pictures/run_plot.h"
+
+namespace evit::pictures {
+namespace {
+
+// A second along x, `beside` m off.
+Trajectory Straight(double beside = 0) {
+  Trajectory line;
+  for (int k = 0; k <= 100; ++k)
+    line.push_back({Utime{10'000} * k, {Eigen::Quaterniond::Identity(), {0.01 * k, beside, 1}}});
+  return line;
+}
+
+TEST(ConsistencyPlot, ShowsTheBoundsWhereTheRunIsScored) {
+  const TemporaryFolder folder("consistency_plot");
+  const Trajectory truth = Straight(), estimate = Straight(0.02);
+  Covariances covariances;
+  for (const StampedPose& pose : estimate) covariances.push_back({pose.t, 1e-4 * Matrix6d::Identity()});
+  const Consistency consistency = ConsistencyOf(truth, estimate, covariances);
+  for (const bool scored : {true, false}) {
+    PlotConsistency(folder.File("plot.png"), "title", scored ? consistency : Consistency{});
+    const cv::Mat image = cv::imread(folder.File("plot.png"));
+    EXPECT_GT(image.cols, 1000);
+    cv::Mat bounds;
+    cv::inRange(image, cv::Scalar(170, 170, 170), cv::Scalar(170, 170, 170), bounds);
+    EXPECT_EQ(cv::countNonZero(bounds) > 5000, scored);  // the legend is there always
+  }
+}
+
+TEST(RunPlot, WithAndWithoutTruthOrPoses) {
+  const TemporaryFolder folder("run_plot");
+  const Trajectory truth = Straight();
+  for (const auto& [a, b] : {std::pair(truth, truth), std::pair(Trajectory(), truth),
+                             std::pair(truth, Trajectory()), std::pair(Trajectory(), Trajectory())}) {
+    PlotRun(folder.File("plot.png"), "title", a, b);
+    const cv::Mat image = cv::imread(folder.File("plot.png"));
+    EXPECT_GT(image.cols, 1000);
+    // Blue, the colour of the path and of z, shows where and only where there are poses.
+    cv::Mat blue;
+    cv::inRange(image, cv::Scalar(178, 114, 0), cv::Scalar(178, 114, 0), blue);
+    EXPECT_EQ(cv::countNonZero(blue) > 500, !b.empty());
+  }
+}
+
+}  // namespace
+}  // namespace evit::pictures
