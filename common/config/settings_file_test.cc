@@ -41,7 +41,11 @@ TEST_F(SettingsFile, ShippedBaselinesDifferInAFewValues) {
   const PipelineOptions evt = LoadOptions(kConfig + "evt.textproto");
   EXPECT_EQ(evt.method, PipelineOptions::Method::kEvt);
   EXPECT_EQ(evt.keyframes.fixed_rate_hz, 300);
-  EXPECT_EQ(evt.window.motion_model, WindowOptions::MotionModel::kPreviousPose);
+  EXPECT_EQ(evt.window.motion_model, WindowOptions::MotionModel::kConstantVelocity);
+  PipelineOptions papers = LoadOptions(kConfig + "evt_paper.textproto");
+  EXPECT_EQ(papers.window.motion_model, WindowOptions::MotionModel::kPreviousPose);
+  papers.window.motion_model = evt.window.motion_model;
+  EXPECT_EQ(SettingsText(papers), SettingsText(evt));
   const PipelineOptions evpt = LoadOptions(kConfig + "evpt.textproto");
   EXPECT_EQ(evpt.method, PipelineOptions::Method::kEvpt);
   EXPECT_EQ(evpt.keyframes.n_event, 20'000);
@@ -62,6 +66,7 @@ TEST_F(SettingsFile, FullCopiesOfEarlierVersionsLoadToTheSameValues) {
     PipelineOptions expected = LoadOptions(kConfig + name + ".textproto");
     expected.keyframes.n_event = 30'000;  // what has another default since
     expected.keyframes.min_events = 2000;
+    if (std::string(name) == "evt") expected.window.motion_model = WindowOptions::MotionModel::kPreviousPose;
     expected.surface.blur_sigma_px = 0.5;
     expected.points.max_active = 5000;
     expected.points.margin_px = 40;

@@ -13,7 +13,10 @@ namespace {
 
 constexpr StartRange kRange{0.05, 0.05, 3};  // how far a body may get between two frames, and then some
 constexpr double kFrameError = 0.03;         // m: that a frame's pose may have besides
-constexpr int kPatience = 150;               // frames that do not fit before it says LOST: at rest none does
+// Neighbouring frames show mostly the same events at the same places: errors of ten are about one's.
+constexpr double kFrameShare = 0.1;  // of what a frame's events say is new
+constexpr double kFarthest = 0.1;    // s: for how long a velocity is believed
+constexpr int kPatience = 150;       // frames that do not fit before it says LOST: at rest none does
 
 }  // namespace
 
@@ -70,18 +73,33 @@ void EventOnlyTracker::AddVisible(const std::vector<std::int32_t>& ids,
 
 TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
   const double seconds = aligned_at_ > 0 ? ToSeconds(keyframe.t - aligned_at_) : 0;
-  const BodyState predicted = Predict(seconds);
+  const bool moves_on = KeepsVelocity() && seconds > 0;
+  MotionFilter motion = motion_;
+  BodyState predicted = state_;
+  Matrix6d known = InformationOf(kRange);
+  if (moves_on) {
+    motion.Predict(std::min(seconds, kFarthest));
+    predicted.T_map_body = motion.state().T_map_body;
+    known = motion.PoseInformation() / kFrameShare;
+  }
   const SurfaceField field(keyframe.surface, kRange.levels);
   const AlignmentPoints points = points_.Select(predicted, rate_, points_.per_keyframe(), keyframe.seq);
-  const LocalizerResult fit = LocalizeBest(alignment_, field, points, predicted.T_map_body, kRange);
+  const LocalizerResult fit =
+      LocalizeBest(alignment_, field, points, predicted.T_map_body, known, kRange.levels);
   state_time_ = keyframe.t;
   TrackerOutput out;
   out.quality = fit.quality;
   out.iterations = fit.iterations;
   if (IsReachable(fit.T_map_body, seconds) &&
       LiesOnEvents(fit.quality, options_.failure.min_contrast, fit.significance, kFollowSignificance)) {
-    Accept(keyframe, seconds, fit.T_map_body);
     const Matrix6d alignment = EvaluateAlignmentExactly(alignment_, field, points, fit.T_map_body).hessian;
+    if (moves_on) {
+      motion.Update(fit.T_map_body, kFrameShare * alignment);
+    } else {
+      motion.Start(fit.T_map_body, kFrameShare * alignment + InformationOf(kRange));
+    }
+    motion_ = motion;
+    Accept(keyframe, KeepsVelocity() ? motion.state() : MotionTo(fit.T_map_body, seconds));
     out.information.topLeftCorner<6, 6>() = alignment;
     out.information.bottomRightCorner<9, 9>().setIdentity();
     uncertainty_.SetAlignment(alignment, MeasureMisfit(alignment_, field, points, fit.T_map_body));
@@ -98,14 +116,6 @@ TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
   return out;
 }
 
-// `seconds` after the newest keyframe that fitted.
-BodyState EventOnlyTracker::Predict(double seconds) const {
-  BodyState predicted = state_;
-  if (options_.window.motion_model != WindowOptions::MotionModel::kPreviousPose && seconds > 0)
-    predicted.T_map_body = PoseAfter(state_, rate_, seconds);
-  return predicted;
-}
-
 // A frame may fit elsewhere by chance, where nothing can get to in that time. At the start, or where the
 // clock went back, it is not known so well where the body is.
 bool EventOnlyTracker::IsReachable(const SE3& T_map_body, double seconds) const {
@@ -113,13 +123,18 @@ bool EventOnlyTracker::IsReachable(const SE3& T_map_body, double seconds) const 
          (T_map_body.p - state_.T_map_body.p).norm() <= kFrameError + options_.failure.max_speed * seconds;
 }
 
-void EventOnlyTracker::Accept(const KeyframeInput& keyframe, double seconds, const SE3& T_map_body) {
+// As the newest two poses have it.
+MotionFilter::State EventOnlyTracker::MotionTo(const SE3& T_map_body, double seconds) const {
   const SE3& previous = state_.T_map_body;
-  if (seconds > 0) {
-    state_.velocity = (T_map_body.p - previous.p) / seconds;
-    rate_ = LogSO3(previous.q.conjugate() * T_map_body.q) / seconds;
-  }
-  state_.T_map_body = T_map_body;
+  if (seconds <= 0) return {T_map_body, state_.velocity, rate_};
+  return {T_map_body, (T_map_body.p - previous.p) / seconds,
+          LogSO3(previous.q.conjugate() * T_map_body.q) / seconds};
+}
+
+void EventOnlyTracker::Accept(const KeyframeInput& keyframe, const MotionFilter::State& state) {
+  state_.T_map_body = state.T_map_body;
+  state_.velocity = state.velocity;
+  rate_ = state.rate;
   aligned_at_ = keyframe.t;
   rejected_ = 0;
   mode_ = TrackerMode::kTracking;

@@ -4,13 +4,15 @@
 #include <vector>
 
 #include "common/tracking/map_tracker.h"
+#include "common/tracking/motion_filter.h"
 #include "common/tracking/point_selector.h"
 #include "common/tracking/pose_covariance.h"
 
 namespace evit {
 
-/// EVT, the paper's event-only baseline (Sec. IV): each frame is localised by its events alone, from the
-/// previous pose or from that at constant velocity. Nothing of the IMU enters the pose.
+/// EVT, event-only tracking: each frame is localised by its events alone, from the previous pose as the
+/// paper's baseline (Sec. IV) does, or from where the body goes at its velocity, which then also holds what a
+/// frame's events say little about (MotionFilter). Nothing of the IMU enters the pose.
 class EventOnlyTracker final : public MapTracker {
  public:
   /// `T_map_body`: pose at the first keyframe, to some centimetres and degrees.
@@ -36,9 +38,12 @@ class EventOnlyTracker final : public MapTracker {
   const Eigen::Vector3d& rate() const override { return rate_; }
 
  private:
-  BodyState Predict(double seconds) const;
+  bool KeepsVelocity() const {
+    return options_.window.motion_model != WindowOptions::MotionModel::kPreviousPose;
+  }
   bool IsReachable(const SE3& T_map_body, double seconds) const;
-  void Accept(const KeyframeInput& keyframe, double seconds, const SE3& T_map_body);
+  MotionFilter::State MotionTo(const SE3& T_map_body, double seconds) const;
+  void Accept(const KeyframeInput& keyframe, const MotionFilter::State& state);
   void Reject();
 
   Rig rig_;
@@ -49,6 +54,7 @@ class EventOnlyTracker final : public MapTracker {
   TrackerMode mode_ = TrackerMode::kBootstrapping;
   std::string reason_ = "waiting for the first keyframe";
   BodyState state_;                                 // at aligned_at_
+  MotionFilter motion_;                             // the same, while KeepsVelocity()
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s, body frame
   Utime aligned_at_ = 0;                            // us: newest keyframe whose events the map lay on
   Utime state_time_ = 0;

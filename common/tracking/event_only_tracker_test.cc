@@ -9,15 +9,20 @@ namespace {
 
 using synthetic::Motion;
 
-TEST(EventOnlyTracker, TracksWithoutTheImuAndSaysWhenItIsLost) {
+using MotionModel = WindowOptions::MotionModel;
+class EventOnlyTrackerWith : public ::testing::TestWithParam<MotionModel> {};
+INSTANTIATE_TEST_SUITE_P(Both, EventOnlyTrackerWith,
+                         ::testing::Values(MotionModel::kPreviousPose, MotionModel::kConstantVelocity));
+
+TEST_P(EventOnlyTrackerWith, TracksWithoutTheImuAndSaysWhenItIsLost) {
   const Motion motion;
   TrackerOptions options = TestOptions();
   options.event_only = true;
-  options.window.motion_model = WindowOptions::MotionModel::kPreviousPose;
+  options.window.motion_model = GetParam();
   Bench bench(options, motion.State(1.0).T_map_body);
   bench.bias = {{9, 9, 9}, {99, 99, 99}};  // nothing of it is used
   TrackerOutput out;
-  for (Utime t = 1'000'000; t <= 2'000'000; t += 3'333) {
+  for (Utime t = 1'000'000; t <= 1'500'000; t += 3'333) {
     out = bench.Step(t, bench.room);
     ASSERT_EQ(out.mode, TrackerMode::kTracking);
     ASSERT_TRUE(out.has_pose);
@@ -25,22 +30,26 @@ TEST(EventOnlyTracker, TracksWithoutTheImuAndSaysWhenItIsLost) {
   }
   EXPECT_GT(out.covariance(0, 0), 0);
   const auto other = synthetic::RoomPoints(60, 99);
-  for (int k = 0; k < 200; ++k) out = bench.Step(2'003'333 + k * 3'333, other);
+  for (int k = 0; k < 200; ++k) out = bench.Step(1'503'333 + k * 3'333, other);
   EXPECT_EQ(out.mode, TrackerMode::kLost);
+}
+
+// As if seen from 10 cm beside.
+std::vector<Eigen::Vector3f> Moved(std::vector<Eigen::Vector3f> room) {
+  for (Eigen::Vector3f& p : room) p += Eigen::Vector3f(0.1F, 0, 0);
+  return room;
 }
 
 TEST(EventOnlyTracker, DoesNotFollowAFrameThatFitsWhereNothingCanGetToInTime) {
   const Motion motion;
   TrackerOptions options = TestOptions();
   options.event_only = true;
+  options.window.motion_model = WindowOptions::MotionModel::kPreviousPose;
   Bench bench(options, motion.State(1.0).T_map_body);
   for (Utime t = 1'000'000; t <= 1'100'000; t += 3'333) bench.Step(t, bench.room);
-  // Seen from 10 cm beside: 30 m/s.
-  std::vector<Eigen::Vector3f> moved = bench.room;
-  for (Eigen::Vector3f& p : moved) p += Eigen::Vector3f(0.1F, 0, 0);
   const Utime jump = 1'103'323;
-  const TrackerOutput out = bench.Step(jump, moved);
-  EXPECT_GT(out.quality.contrast(), 0.3);  // it fits
+  const TrackerOutput out = bench.Step(jump, Moved(bench.room));  // 30 m/s
+  EXPECT_GT(out.quality.contrast(), 0.3);                         // it fits
   EXPECT_FALSE(out.has_pose);
   EXPECT_EQ(out.mode, TrackerMode::kTracking);
   const TrackerOutput next = bench.Step(jump + 3'333, bench.room);
@@ -48,11 +57,31 @@ TEST(EventOnlyTracker, DoesNotFollowAFrameThatFitsWhereNothingCanGetToInTime) {
   EXPECT_LT((next.nodes.back().state.T_map_body.p - bench.Truth(jump + 3'333).p).norm(), 0.02);
 }
 
-TEST(EventOnlyTracker, GoesOnWhereTheClockGoesBack) {
+TEST(EventOnlyTracker, ABodyThatMovesOnHoldsItsPoseAgainstOneSuchFrame) {
   const Motion motion;
   TrackerOptions options = TestOptions();
   options.event_only = true;
-  options.window.motion_model = WindowOptions::MotionModel::kPreviousPose;
+  options.window.motion_model = WindowOptions::MotionModel::kConstantVelocity;
+  Bench bench(options, motion.State(1.0).T_map_body);
+  TrackerOutput out;
+  for (Utime t = 1'000'000; t <= 1'100'000; t += 3'333) out = bench.Step(t, bench.room);
+  const BodyState truth = motion.State(1.1);
+  EXPECT_LT((out.nodes.back().state.velocity - truth.velocity).norm(), 0.3 * truth.velocity.norm());
+  const Utime jump = 1'103'323;
+  out = bench.Step(jump, Moved(bench.room));
+  if (out.has_pose) {
+    EXPECT_LT((out.nodes.back().state.T_map_body.p - bench.Truth(jump).p).norm(), 0.03);
+  }
+  out = bench.Step(jump + 3'333, bench.room);
+  ASSERT_TRUE(out.has_pose);
+  EXPECT_LT((out.nodes.back().state.T_map_body.p - bench.Truth(jump + 3'333).p).norm(), 0.02);
+}
+
+TEST_P(EventOnlyTrackerWith, GoesOnWhereTheClockGoesBack) {
+  const Motion motion;
+  TrackerOptions options = TestOptions();
+  options.event_only = true;
+  options.window.motion_model = GetParam();
   Bench bench(options, motion.State(1.0).T_map_body);
   for (Utime t = 1'000'000; t <= 1'050'000; t += 3'333) bench.Step(t, bench.room);
   bench.clock = -500'000;

@@ -12,6 +12,8 @@
 namespace evit {
 namespace {
 
+constexpr int kMaxIterations = 15;
+
 void Judge(const AlignmentSettings& settings, const SurfaceField& field, const AlignmentPoints& points,
            LocalizerResult* result) {
   const AlignmentVerdict verdict = JudgeAlignment(settings, field, points, result->T_map_body);
@@ -19,20 +21,17 @@ void Judge(const AlignmentSettings& settings, const SurfaceField& field, const A
   result->significance = verdict.significance;
 }
 
-}  // namespace
-
-LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& field,
-                         const AlignmentPoints& points, const SE3& start, const StartRange& range,
-                         int max_iterations) {
+LocalizerResult LocalizeFrom(const AlignmentSettings& settings, const SurfaceField& field,
+                             const AlignmentPoints& points, const SE3& start, const Matrix6d& information,
+                             int levels, int max_iterations) {
   BodyState state;
   state.T_map_body = start;
   StateBlocks blocks = ToBlocks(state);
   StatePrior prior;
   prior.mean = state;
-  prior.information.diagonal().segment<3>(0).setConstant(1 / (range.position * range.position));
-  prior.information.diagonal().segment<3>(3).setConstant(1 / (range.rotation * range.rotation));
+  prior.information.topLeftCorner<6, 6>() = information;
   LocalizerResult result;
-  for (int level = std::min(range.levels, field.levels()) - 1; level >= 0; --level) {
+  for (int level = std::min(levels, field.levels()) - 1; level >= 0; --level) {
     ceres::Problem problem;
     problem.AddParameterBlock(blocks.pose.data(), 7, new PoseManifold);
     problem.AddResidualBlock(new EventAlignmentFactor(&settings, &field, level, &points), nullptr,
@@ -54,15 +53,36 @@ LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& 
   return result;
 }
 
+}  // namespace
+
+Matrix6d InformationOf(const StartRange& range) {
+  Matrix6d information = Matrix6d::Zero();
+  information.diagonal().head<3>().setConstant(1 / (range.position * range.position));
+  information.diagonal().tail<3>().setConstant(1 / (range.rotation * range.rotation));
+  return information;
+}
+
+LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& field,
+                         const AlignmentPoints& points, const SE3& start, const StartRange& range,
+                         int max_iterations) {
+  return LocalizeFrom(settings, field, points, start, InformationOf(range), range.levels, max_iterations);
+}
+
 LocalizerResult LocalizeBest(const AlignmentSettings& settings, const SurfaceField& field,
                              const AlignmentPoints& points, const SE3& start, const StartRange& range) {
+  return LocalizeBest(settings, field, points, start, InformationOf(range), range.levels);
+}
+
+LocalizerResult LocalizeBest(const AlignmentSettings& settings, const SurfaceField& field,
+                             const AlignmentPoints& points, const SE3& start, const Matrix6d& information,
+                             int levels) {
   LocalizerResult best;
   best.T_map_body = start;
   Judge(settings, field, points, &best);
   int iterations = 0;
-  StartRange shallow = range;
-  for (shallow.levels = 1; shallow.levels <= std::min(range.levels, field.levels()); ++shallow.levels) {
-    const LocalizerResult fit = Localize(settings, field, points, start, shallow);
+  for (int depth = 1; depth <= std::min(levels, field.levels()); ++depth) {
+    const LocalizerResult fit =
+        LocalizeFrom(settings, field, points, start, information, depth, kMaxIterations);
     iterations += fit.iterations;
     if (fit.significance > best.significance) best = fit;
   }

@@ -20,6 +20,9 @@ struct StartRange {
   int levels = 4;          // of the field, to begin with the coarsest of: basins of some 2^(levels+1) pixels
 };
 
+/// Inverse covariance over (dp, dtheta).
+Matrix6d InformationOf(const StartRange& range);
+
 LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& field,
                          const AlignmentPoints& points, const SE3& start, const StartRange& range,
                          int max_iterations = 15);
@@ -29,5 +32,10 @@ LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& 
 /// points onto the densest events, and so leave a right pose; the search never ends worse than it began.
 LocalizerResult LocalizeBest(const AlignmentSettings& settings, const SurfaceField& field,
                              const AlignmentPoints& points, const SE3& start, const StartRange& range);
+/// The same where more is known of the pose: `information` is the start's inverse covariance over (dp,
+/// dtheta).
+LocalizerResult LocalizeBest(const AlignmentSettings& settings, const SurfaceField& field,
+                             const AlignmentPoints& points, const SE3& start, const Matrix6d& information,
+                             int levels);
 
 }  // namespace evit
