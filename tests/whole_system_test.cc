@@ -1,156 +1,33 @@
 // The main job: four real processes over real UDP on the sample log. Runs in a network namespace of its own.
+#include "tests/helpers/whole_system.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <regex>
-#include <sstream>
 #include <thread>
 
 #include "common/evaluation/covariance_file.h"
-#include "common/evaluation/trajectory_error.h"
-#include "common/geometry/degrees.h"
 #include "common/map/map_file.h"
 #include "tests/helpers/paths.h"
-#include "tests/helpers/tcpq_server.h"
 
 namespace evit {
 namespace {
 
 namespace fs = std::filesystem;
+using test::Eventually;
+using test::kEvit;
+using test::kLogs;
+using test::kRealTime;
+using test::ReadAll;
+using test::Result;
+using test::Shell;
 using ::testing::HasSubstr;
 
-const std::string kLogs = test::SourcePath("logs/");
-const std::string kEvit = test::ProgramPath("evit");
-
-struct Result {
-  int code = -1;
-  std::string output;  // stdout and stderr
-};
-
-Result Shell(const std::string& command) {
-  Result result;
-  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  char buffer[4096];
-  for (std::size_t n = 0; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) result.output.append(buffer, n);
-  const int status = pclose(pipe);
-  result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return result;
-}
-
-std::string ReadAll(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-// Real time at a speed that leaves a machine with other work to do, or sanitized services, time to keep up.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kSlower = 5;
-const std::string kRealTime = "--realtime --speed 0.2";
-#else
-constexpr int kSlower = 2;
-const std::string kRealTime = "--realtime --speed 0.5";
-#endif
-
-// What takes a moment on an idle machine may take this long on a busy one.
-constexpr auto kPatience = std::chrono::seconds(60);
-
-// Whether `condition` comes to hold.
-template <typename Condition>
-bool Eventually(Condition condition) {
-  const auto end = std::chrono::steady_clock::now() + kPatience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  return true;
-}
-
-class WholeSystemTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder_ = fs::path(::testing::TempDir()) / ("evit_" + name + "_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string Path(const std::string& name) const { return (folder_ / name).string(); }
-  // Runs, and kills a service so many times, each time this long after it has been there.
-  Result RunAndKill(const std::string& command, const std::string& service, int times,
-                    std::chrono::milliseconds life) const {
-    std::atomic<bool> over{false};
-    std::thread killer([&] {
-      for (int k = 0; k < times; ++k) {
-        Eventually([&] { return over || Lives(service); });
-        std::this_thread::sleep_for(life);
-        Kill(service);
-      }
-    });
-    Result result = Shell(command);
-    over = true;
-    killer.join();
-    return result;
-  }
-  // Kills a service twice in a run of 3 s of sensor time.
-  void KillInRealTime(const std::string& service) {
-    const Result result =
-        RunAndKill(RunCommand("out", kRealTime), service, 2, kSlower * std::chrono::milliseconds(1000));
-    ASSERT_EQ(result.code, 0) << result.output;
-    EXPECT_GE(Restarts("out"), 1) << result.output;
-    ExpectGood(Path("out/trajectory.tum"), 0.02, 0.8);
-    Utime longest = 0;  // without a pose
-    const Trajectory online = ReadTum(Path("out/trajectory.tum"));
-    for (std::size_t k = 1; k < online.size(); ++k)
-      longest = std::max(longest, online[k].t - online[k - 1].t);
-    std::printf("longest time without a pose: %.0f ms\n", static_cast<double>(longest) * 1e-3);
-    EXPECT_LT(longest, 700'000);
-    EXPECT_FALSE(fs::exists(Path("out/checkpoint")));
-  }
-  int Restarts(const std::string& out) const {
-    const std::string report = ReadAll(Path(out + "/report.json")), key = "\"service_restarts\": ";
-    const auto at = report.find(key);
-    return at == std::string::npos ? -1 : std::stoi(report.substr(at + key.size()));
-  }
-  // This test's, not those of tests that run beside it: its files lie in a folder of its own.
-  void Kill(const std::string& service) const { Shell("pkill -9 " + Pattern(service)); }
-  bool Lives(const std::string& service) const { return Shell("pgrep " + Pattern(service)).code == 0; }
-  std::string Pattern(const std::string& service) const {
-    return "-f '^" + service + " .*" + folder_.string() + "/'";
-  }
-  std::string RunCommand(const std::string& out, const std::string& more = "") const {
-    return PlaceCommand(out, "sample_map.pcd") + " --initial-from " + kLogs + "sample_truth.tum " + more;
-  }
-  // Without a start pose.
-  std::string PlaceCommand(const std::string& out, const std::string& map) const {
-    for (const char* file : {"sample_map.pcd", "rig.textproto"}) {
-      fs::copy_file(kLogs + file, Path(file), fs::copy_options::skip_existing);
-    }
-    // What others find a run by is the test's own too.
-    return "XDG_RUNTIME_DIR=" + folder_.string() + " " + kEvit + " run --log " + kLogs +
-           "sample.lcmlog --map " + Path(map) + " --rig " + Path("rig.textproto") + " --out " + Path(out);
-  }
-  static void ExpectGood(const std::string& trajectory, double max_position, double max_degrees) {
-    const TrajectoryError error =
-        AbsoluteError(ReadTum(kLogs + "sample_truth.tum"), ReadTum(trajectory), Alignment::kNone);
-    EXPECT_GT(error.n_pairs, 30);
-    EXPECT_GT(error.coverage, 0.95);
-    EXPECT_LT(error.position_rmse, max_position);
-    EXPECT_LT(error.orientation_rmse, max_degrees / kDegreesPerRadian);
-    std::printf("ATE %.2f cm, %.2f deg, %d poses\n", 100 * error.position_rmse,
-                error.orientation_rmse * kDegreesPerRadian, error.n_pairs);
-  }
-  fs::path folder_;
-};
+class WholeSystemTest : public test::WholeSystem {};
 
 TEST_F(WholeSystemTest, TracksTheSampleLogBitIdentically) {
   for (const char* out : {"a", "b"}) {
@@ -180,32 +57,6 @@ TEST_F(WholeSystemTest, TracksInRealTime) {
   const Result result = Shell(RunCommand("live", kRealTime));
   ASSERT_EQ(result.code, 0) << result.output;
   ExpectGood(Path("live/trajectory.tum"), 0.02, 0.8);
-}
-
-TEST_F(WholeSystemTest, SurvivesMapServerCrashes) {
-  // Killed repeatedly during the run: it is restarted each time, and the result is the same.
-  const Result result = RunAndKill(RunCommand("killed"), "map_server", 3, std::chrono::milliseconds(100));
-  ASSERT_EQ(result.code, 0) << result.output;
-  EXPECT_GE(Restarts("killed"), 1) << result.output;
-  ExpectGood(Path("killed/trajectory.tum"), 0.015, 0.6);
-}
-
-// Nobody says where it begins, and map_server dies while it searches.
-TEST_F(WholeSystemTest, FindsItsPlaceWithoutAStartPose) {
-  const Result result =
-      RunAndKill(PlaceCommand("found", "sample_map.pcd"), "map_server", 1, std::chrono::milliseconds(400));
-  ASSERT_EQ(result.code, 0) << result.output;
-  EXPECT_GE(Restarts("found"), 1) << result.output;
-  const Trajectory truth = ReadTum(kLogs + "sample_truth.tum");
-  const Trajectory online = ReadTum(Path("found/trajectory.tum"));
-  ASSERT_FALSE(online.empty());
-  EXPECT_LT(online.front().t, truth.front().t + 2'000'000);
-  for (const StampedPose& pose : online) {
-    SE3 there;
-    if (!PoseAt(truth, pose.t, &there)) continue;
-    EXPECT_LT((pose.pose.p - there.p).norm(), 0.1) << pose.t;
-    EXPECT_LT(AngularDistance(pose.pose.q, there.q), 0.05) << pose.t;
-  }
 }
 
 TEST_F(WholeSystemTest, InAMirroredMapItClaimsNoPose) {
@@ -288,32 +139,6 @@ TEST_F(WholeSystemTest, AnInterruptedCalibrationLeavesNothingBehind) {
     EXPECT_TRUE(fs::exists(Path("there/mine"))) << calibration.output;
   }
 }
-
-// The server that all messages go through dies while a run is at work.
-TEST_F(WholeSystemTest, ATcpqServerThatGoesAwayEndsTheRunWithItsName) {
-  test::TcpqServer server;
-  ASSERT_NE(server.port(), 0);
-  const std::string url = "tcpq://127.0.0.1:" + std::to_string(server.port());
-  Result run;
-  std::thread running([&] { run = Shell(RunCommand("out", "--realtime --speed 0.25 --lcm-url " + url)); });
-  // Keyframes and poses by the hundred: it is at work.
-  EXPECT_TRUE(Eventually([&] { return server.n_messages() > 500; })) << server.n_messages();
-  server.Stop();
-  running.join();
-  EXPECT_EQ(run.code, 1) << run.output;
-  EXPECT_THAT(run.output, HasSubstr("tcpq: the server at " + url.substr(7) + " is gone"));
-  for (const char* service : {"map_server", "window_optimizer", "frame_builder", "log_replay"}) {
-    EXPECT_FALSE(Lives(service)) << service;
-    const std::string log = ReadAll(Path(std::string("out/") + service + ".log"));
-    EXPECT_EQ(log.find("terminate called"), std::string::npos) << log;
-  }
-}
-
-TEST_F(WholeSystemTest, SurvivesLogReplayCrashInRealTime) { KillInRealTime("log_replay"); }
-
-TEST_F(WholeSystemTest, SurvivesFrameBuilderCrashInRealTime) { KillInRealTime("frame_builder"); }
-
-TEST_F(WholeSystemTest, SurvivesOptimizerCrashInRealTime) { KillInRealTime("window_optimizer"); }
 
 TEST_F(WholeSystemTest, LcmToolsCanPlayAndRecord) {
   // The stock player feeds the three other services; the stock logger records their messages.

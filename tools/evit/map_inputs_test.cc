@@ -1,89 +1,21 @@
 // `evit map build` on pictures as people have them, the program.
+#include "tests/helpers/map_inputs.h"
+
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <fstream>
 #include <opencv2/imgproc.hpp>
 
 #include "common/files/decimal_time.h"
-#include "tests/helpers/painted_pictures.h"
 #include "tests/helpers/ros_bags.h"
-#include "tests/helpers/run_evit.h"
-#include "tests/helpers/temporary_folder.h"
 #include "tests/helpers/zip_files.h"
 
 namespace evit::commands {
 namespace {
 
-namespace fs = std::filesystem;
+using test::StampName;
 using ::testing::HasSubstr;
 
-class MapInputsTest : public testing::Test {
- protected:
-  static void SetUpTestSuite() { painted_ = new PaintedPictures; }
-  static void TearDownTestSuite() {
-    delete painted_;
-    painted_ = nullptr;
-  }
-  void SetUp() override {
-    WriteCamera("camera.textproto", {});
-    WriteTum(File("poses.tum"), painted_->poses);
-  }
-
-  std::string File(const std::string& name) const { return folder_.File(name); }
-  void Write(const std::string& name, const std::string& bytes) const {
-    fs::create_directories(fs::path(File(name)).parent_path());
-    folder_.Write(name, bytes);
-  }
-  void WriteCamera(const std::string& name, const SE3& T_body_camera) const {
-    MountedCamera mounted;
-    mounted.camera = painted_->camera;
-    mounted.T_body_camera = T_body_camera;
-    WriteMountedCamera(File(name), mounted, "test");
-  }
-  // Poses every 10 ms, of a motion through the pictures' poses.
-  Trajectory Dense(const SE3& T_camera_posed) const {
-    Trajectory dense;
-    for (Utime t = painted_->poses.front().t; t <= painted_->poses.back().t; t += 10'000) {
-      SE3 pose;
-      PoseAt(painted_->poses, t, &pose);
-      dense.push_back({t, pose * T_camera_posed});
-    }
-    return dense;
-  }
-  test::ProgramOutcome Build(const std::string& arguments) const {
-    fs::remove(File("map.pcd"));
-    return test::RunEvit("map build --out " + File("map.pcd") + " " + arguments);
-  }
-  std::string Calibrated() const {
-    return " --poses " + File("poses.tum") + " --camera " + File("camera.textproto");
-  }
-  void ExpectGoodMap(const test::ProgramOutcome& outcome, double median_m = 0.005) const {
-    ASSERT_EQ(outcome.code, 0) << outcome.output;
-    const std::vector<double> errors = painted_->Errors(File("map.pcd"));
-    ASSERT_GT(errors.size(), 500U);
-    EXPECT_LT(errors[errors.size() / 2], median_m);
-  }
-  void ExpectRefused(const test::ProgramOutcome& outcome, const std::string& words) const {
-    EXPECT_NE(outcome.code, 0) << words;
-    EXPECT_THAT(outcome.output, HasSubstr(words));
-    EXPECT_FALSE(fs::exists(File("map.pcd")) || fs::exists(File("map.pcd.part"))) << words;
-  }
-
-  static PaintedPictures* painted_;
-
- private:
-  TemporaryFolder folder_{"map_inputs"};
-};
-
-PaintedPictures* MapInputsTest::painted_ = nullptr;
-
-std::string StampName(Utime t) {
-  char name[60];
-  std::snprintf(name, sizeof name, "%lld.%06lld.png", static_cast<long long>(t / 1'000'000),
-                static_cast<long long>(t % 1'000'000));
-  return name;
-}
+class MapInputsTest : public test::MapInputs {};
 
 // VECtor's left camera: names are stamps. One file is damaged; two lie after the poses' end.
 TEST_F(MapInputsTest, AZipOfPicturesWithStampsAndPosesAtAnotherRate) {
@@ -186,27 +118,6 @@ TEST_F(MapInputsTest, TumsLayoutOfRgbAndDepth) {
   EXPECT_TRUE(far.code != 0 || far.output.find("warning") != std::string::npos) << far.output;
 }
 
-// Each depth looks right by itself: only other views tell that a pose is wrong.
-TEST_F(MapInputsTest, DepthWithPosesOfAnotherTimeOrWithNothingInItIsNamed) {
-  Trajectory shuffled;
-  for (std::size_t k = 0; k < painted_->pictures.size(); ++k) {
-    const StampedPose& pose = painted_->poses[k];
-    const cv::Mat depth = painted_->scene.Depth(painted_->camera, pose.pose, 1000);
-    Write("grey/" + StampName(pose.t), PaintedPictures::Png(painted_->pictures[k]));
-    Write("depth/" + StampName(pose.t), PaintedPictures::Png(depth));
-    Write("empty/" + StampName(pose.t), PaintedPictures::Png(cv::Mat::zeros(depth.size(), depth.type())));
-    shuffled.push_back({pose.t, painted_->poses[(7 * k + 3) % painted_->poses.size()].pose});
-  }
-  const std::string grey = "--images " + File("grey") + Calibrated();
-  ExpectGoodMap(Build(grey + " --depth " + File("depth")));
-  ExpectRefused(Build(grey + " --depth " + File("empty")),
-                "pictures show edges with a depth, a map needs three");
-  WriteTum(File("poses.tum"), shuffled);
-  const test::ProgramOutcome wrong = Build(grey + " --depth " + File("depth"));
-  EXPECT_TRUE(wrong.code != 0 || wrong.output.find("warning:") != std::string::npos) << wrong.output;
-  EXPECT_THAT(wrong.output, testing::ContainsRegex("clock(, order)? (or|and) frame"));
-}
-
 // VECtor's Kinect: a depth camera of its own beside the grey one, both on a body whose poses are known.
 TEST_F(MapInputsTest, DepthOfAnotherCamera) {
   const SE3 T_body_grey(ExpSO3({0.3, -0.2, 0.1}), {0.1, 0, 0.05});
@@ -256,83 +167,6 @@ TEST_F(MapInputsTest, TwoCamerasOnABody) {
   ExpectGoodMap(Build(left + " --images " + File("right") + " --camera " + File("right.textproto")), 0.01);
   ExpectRefused(Build(left), "depth needs a baseline");
   ExpectRefused(Build(left + " --images " + File("right")), "--camera 1 files: one for each");
-}
-
-// Poses of the body where the camera's are expected: the clock fits, the frame does not.
-TEST_F(MapInputsTest, PosesOfAnotherFrameOrClockAreNamed) {
-  for (std::size_t k = 0; k < painted_->pictures.size(); ++k)
-    Write("grey/" + StampName(painted_->poses[k].t), PaintedPictures::Png(painted_->pictures[k]));
-  const std::string grey = "--images " + File("grey") + Calibrated();
-  Trajectory body, late;
-  for (const StampedPose& pose : Dense(SE3(ExpSO3({1.2, -1.2, 1.2}), {0.1, 0, 0.05}))) body.push_back(pose);
-  WriteTum(File("poses.tum"), body);
-  const test::ProgramOutcome askew = Build(grey);
-  EXPECT_TRUE(askew.code != 0 || askew.output.find("warning:") != std::string::npos) << askew.output;
-  EXPECT_THAT(askew.output, testing::ContainsRegex("clock(, order)? (or|and) frame"));
-  // Half a second late within the recording: some pictures have a pose, a wrong one.
-  for (const StampedPose& pose : Dense({})) late.push_back({pose.t + 500'000, pose.pose});
-  WriteTum(File("poses.tum"), late);
-  const test::ProgramOutcome outcome = Build(grey);
-  EXPECT_THAT(outcome.output, HasSubstr("pictures have no pose"));
-  EXPECT_TRUE(outcome.code != 0 || outcome.output.find("warning:") != std::string::npos) << outcome.output;
-  // Nothing but what lies between two poses far apart.
-  WriteTum(File("poses.tum"), {body.front(), body.back()});
-  ExpectRefused(Build(grey), "have a pose, a map needs three");
-}
-
-TEST_F(MapInputsTest, BlurredDarkAndCoveredPicturesAreLeftOut) {
-  for (std::size_t k = 0; k < painted_->pictures.size(); ++k) {
-    cv::Mat picture = painted_->pictures[k].clone();
-    if (k == 2) cv::GaussianBlur(picture, picture, {}, 30);
-    if (k == 5) picture *= 0.002;
-    if (k == 9) picture.setTo(3);
-    Write("grey/" + StampName(painted_->poses[k].t), PaintedPictures::Png(picture));
-  }
-  const test::ProgramOutcome outcome = Build("--images " + File("grey") + Calibrated());
-  ExpectGoodMap(outcome);
-  EXPECT_THAT(outcome.output, HasSubstr("3 of 16 pictures show few edges (blurred, dark, covered"));
-}
-
-TEST_F(MapInputsTest, NoTextureAndTooFewViewsAreNamed) {
-  cv::RNG noise(1);
-  for (std::size_t k = 0; k < painted_->pictures.size(); ++k) {
-    cv::Mat wall(150, 200, CV_8U);
-    noise.fill(wall, cv::RNG::NORMAL, 120, 3);
-    Write("wall/" + StampName(painted_->poses[k].t), PaintedPictures::Png(wall));
-    if (k < 2) Write("two/" + StampName(painted_->poses[k].t), PaintedPictures::Png(painted_->pictures[k]));
-  }
-  ExpectRefused(Build("--images " + File("wall") + Calibrated()), "there is no texture");
-  ExpectRefused(Build("--images " + File("two") + Calibrated()), "a map needs three");
-}
-
-// Another lens: depths that agree are few, or off.
-TEST_F(MapInputsTest, WrongIntrinsicsAreWarnedOf) {
-  for (std::size_t k = 0; k < painted_->pictures.size(); ++k)
-    Write("grey/" + StampName(painted_->poses[k].t), PaintedPictures::Png(painted_->pictures[k]));
-  MountedCamera other;
-  other.camera = painted_->camera;
-  other.camera.fx = other.camera.fy = 220;
-  other.camera.cx = 70;
-  WriteMountedCamera(File("camera.textproto"), other, "test");
-  const test::ProgramOutcome outcome = Build("--images " + File("grey") + Calibrated());
-  EXPECT_TRUE(outcome.code != 0 || outcome.output.find("warning:") != std::string::npos) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("calibration"));
-  EXPECT_THAT(outcome.output, testing::Not(HasSubstr("ms apart"))) << "each picture has a pose of its own";
-  // Of another size: refused before anything is read.
-  other.camera.width = 640;
-  WriteMountedCamera(File("camera.textproto"), other, "test");
-  ExpectRefused(Build("--images " + File("grey") + Calibrated()), "the camera file says 640x150");
-}
-
-// A full disk, a folder that may not be written: no half map.
-TEST_F(MapInputsTest, WhatCannotBeWrittenLeavesNothing) {
-  for (std::size_t k = 0; k < painted_->pictures.size(); ++k)
-    Write("grey/" + StampName(painted_->poses[k].t), PaintedPictures::Png(painted_->pictures[k]));
-  fs::create_directories(File("map.pcd.part"));
-  const test::ProgramOutcome outcome = Build("--images " + File("grey") + Calibrated());
-  EXPECT_NE(outcome.code, 0);
-  EXPECT_THAT(outcome.output, HasSubstr("map.pcd"));
-  EXPECT_FALSE(fs::exists(File("map.pcd")));
 }
 
 }  // namespace
