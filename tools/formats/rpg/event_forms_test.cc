@@ -76,7 +76,7 @@ TEST_F(RpgImportTest, EventsInEveryFormThatHasOneMeaning) {
       },
       [&] {
         write("x y t[ns] p\n", "\n", [&](Utime t, int x, int y, int p) {
-          return text("%d %d %lld %d", x, y, static_cast<long long>(1000 * t), p);
+          return text("%d %d %lld %d", x, y, 1000 * static_cast<long long>(t), p);
         });
       },
       [&] {
