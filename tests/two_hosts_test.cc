@@ -83,7 +83,7 @@ TEST_F(TwoHostsTest, TracksAcrossTheCable) {
   while (!recorder.Finished() && std::chrono::steady_clock::now() < give_up) bus->Poll(20);
   ASSERT_TRUE(recorder.Finished()) << optimizer->Stderr() << builder->Stderr() << map_server->Stderr();
   const TrajectoryError error = AbsoluteError(truth, recorder.online(), Alignment::kNone);
-  EXPECT_GT(error.coverage, 0.95);
+  EXPECT_GT(error.reached, 0.95);
   EXPECT_LT(error.position_rmse, 0.015);
   // The cable was used: the optimiser's host saw keyframes that only this one sends.
   EXPECT_GT(recorder.online().size(), 30u);

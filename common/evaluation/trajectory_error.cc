@@ -90,7 +90,7 @@ TrajectoryError ErrorOf(const Pairs& pairs, const Move& move) {
   return error;
 }
 
-double Coverage(const Trajectory& truth, const Trajectory& estimate) {
+double Reached(const Trajectory& truth, const Trajectory& estimate) {
   if (truth.size() < 2 || estimate.empty()) return 0;
   const auto span = static_cast<double>(truth.back().t - truth.front().t);
   return std::clamp(static_cast<double>(estimate.back().t - truth.front().t) / span, 0.0, 1.0);
@@ -113,7 +113,7 @@ TrajectoryError AbsoluteError(const Trajectory& truth, const Trajectory& estimat
     error = ErrorOf(pairs, Align(pairs, alignment));
     error.oriented = oriented;
   }
-  error.coverage = Coverage(truth, estimate);
+  error.reached = Reached(truth, estimate);
   return error;
 }
 
@@ -144,7 +144,7 @@ TrajectoryError RelativeError(const Trajectory& truth, const Trajectory& estimat
     steps.push_back({begin.t, begin.truth.Inverse() * truth_b, begin.estimate.Inverse() * estimate_b});
   }
   TrajectoryError error = ErrorOf(steps, {});
-  error.coverage = Coverage(truth, estimate);
+  error.reached = Reached(truth, estimate);
   return error;
 }
 

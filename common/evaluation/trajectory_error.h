@@ -20,7 +20,7 @@ struct TrajectoryError {
   double orientation_rmse = 0;  // rad
   double position_max = 0;      // m
   double orientation_max = 0;   // rad
-  double coverage = 0;          // 0..1: share of the truth's time span that the estimate reaches
+  double reached = 0;           // 0..1: share of the truth's time span that lies before the last pose
   bool scaled = true;           // false: positions on one spot do not say which scale (Alignment::kScaled)
   // False: positions on a straight line, or on one spot, leave the turn of an alignment by positions open.
   // What is left of the position error is still one figure; an orientation error there is none.

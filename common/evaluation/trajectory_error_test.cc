@@ -34,7 +34,7 @@ TEST(AbsoluteError, OfTheTruthItselfIsZero) {
     EXPECT_EQ(e.n_pairs, 1001);
     EXPECT_LT(e.position_rmse, 1e-9);
     EXPECT_LT(e.orientation_rmse, 1e-7);
-    EXPECT_DOUBLE_EQ(e.coverage, 1);
+    EXPECT_DOUBLE_EQ(e.reached, 1);
   }
 }
 
@@ -90,10 +90,10 @@ TEST(AbsoluteError, TruthIsInterpolatedAtTheEstimatesStamps) {
   EXPECT_LT(AbsoluteError(Walk(), estimate, Alignment::kNone).position_rmse, 1e-12);
 }
 
-TEST(Coverage, AHalfTrajectoryIsHalfAndItsLaterMilestonesAreNotReached) {
+TEST(Reached, AHalfTrajectoryIsHalfAndItsLaterMilestonesAreNotReached) {
   Trajectory half = Walk();
   half.resize(501);
-  EXPECT_NEAR(AbsoluteError(Walk(), half, Alignment::kNone).coverage, 0.5, 1e-6);
+  EXPECT_NEAR(AbsoluteError(Walk(), half, Alignment::kNone).reached, 0.5, 1e-6);
   EXPECT_EQ(MilestoneError(Walk(), half, Alignment::kNone, 0.3).n_pairs, 301);
   EXPECT_EQ(MilestoneError(Walk(), half, Alignment::kNone, 0.5).n_pairs, 501);
   EXPECT_EQ(MilestoneError(Walk(), half, Alignment::kNone, 1.0).n_pairs, 0);

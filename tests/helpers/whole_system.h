@@ -103,7 +103,7 @@ class WholeSystem : public ::testing::Test {
     const TrajectoryError error =
         AbsoluteError(ReadTum(kLogs + "sample_truth.tum"), ReadTum(trajectory), Alignment::kNone);
     EXPECT_GT(error.n_pairs, 30);
-    EXPECT_GT(error.coverage, 0.95);
+    EXPECT_GT(error.reached, 0.95);
     EXPECT_LT(error.position_rmse, max_position);
     EXPECT_LT(error.orientation_rmse, max_degrees / kDegreesPerRadian);
     std::printf("ATE %.2f cm, %.2f deg, %d poses\n", 100 * error.position_rmse,

@@ -94,7 +94,7 @@ Evaluation Evaluate(const EvalOptions& o) {
 void PrintJson(const EvalOptions& o, const Evaluation& e) {
   nlohmann::json out{{"truth", o.truth},
                      {"estimate", o.estimate},
-                     {"coverage", e.whole.coverage},
+                     {"reached", e.whole.reached},
                      {"poses", e.estimate.size()},
                      {"not_scored", e.unscored}};
   if (e.consistency) out["consistency"] = ToJson(*e.consistency);
@@ -111,7 +111,7 @@ void PrintJson(const EvalOptions& o, const Evaluation& e) {
 }
 
 void PrintText(const Evaluation& e) {
-  std::printf("%d pairs, %.0f %% of the truth's time reached\n", e.whole.n_pairs, 100 * e.whole.coverage);
+  std::printf("%d pairs, %.0f %% of the truth's time reached\n", e.whole.n_pairs, 100 * e.whole.reached);
   if (!e.unscored.empty()) std::printf("%s\n", e.unscored.c_str());
   std::printf("\n");
   std::printf("ATE RMSE, cm / deg  %16s  %16s  %16s  %16s\n", "all", "30 %", "50 %", "100 %");

@@ -84,7 +84,7 @@ RunScore ScoreTrajectory(const Trajectory& truth, const Trajectory& estimate, st
         score.ate[a][m] = Ate{100 * e.position_rmse, kDegreesPerRadian * e.orientation_rmse};
     }
   }
-  score.tracked = AbsoluteError(truth, tracked, Alignment::kNone).coverage;
+  score.tracked = AbsoluteError(truth, tracked, Alignment::kNone).reached;
   if (tracked.size() > 1) {
     score.keyframe_rate_hz =
         static_cast<double>(tracked.size() - 1) / ToSeconds(tracked.back().t - tracked.front().t);

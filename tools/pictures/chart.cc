@@ -108,6 +108,7 @@ void DrawSeries(const Series& s, const Axes& axes, cv::Mat* image) {
   };
   double length = 0;  // pixels, along the curve
   for (std::size_t k = 0; k < s.x.size(); ++k) {
+    if (!std::isfinite(s.x[k]) || (s.line && k > 0 && !std::isfinite(s.x[k - 1]))) continue;
     if (!s.line) {
       cv::circle(*image, point(k), 2 << kShift, s.color, cv::FILLED, cv::LINE_AA, kShift);
       continue;
@@ -145,6 +146,12 @@ void DrawText(cv::Mat* image, const std::string& text, cv::Point at, double size
   if (anchor == Anchor::kCenter) at.x -= extent.width / 2;
   if (anchor == Anchor::kRight) at.x -= extent.width;
   cv::putText(*image, text, at, cv::FONT_HERSHEY_SIMPLEX, size, color, thickness, cv::LINE_AA);
+}
+
+void Series::Break() {
+  if (x.empty()) return;
+  x.push_back(std::numeric_limits<double>::quiet_NaN());
+  y.push_back(x.back());
 }
 
 void Chart::Draw(cv::Mat* image, const cv::Rect& where) const {

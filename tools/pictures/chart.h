@@ -13,12 +13,14 @@ constexpr double kLongestGap = 0.3;  // s: lines over time are broken where ther
 
 /// One curve or cloud of points in a chart.
 struct Series {
-  std::string name;  // in the legend; empty: not listed
-  cv::Scalar color;  // B, G, R
-  std::vector<double> x, y;
-  bool line = true;  // false: dots
-  double gap = 0;    // lines are broken where x jumps by more than this; 0: never
-  int dash = 0;      // pixels: length of dashes and of what is between them; 0: a full line
+  std::string name;          // in the legend; empty: not listed
+  cv::Scalar color;          // B, G, R
+  std::vector<double> x, y;  // NaN breaks a line
+  bool line = true;          // false: dots
+  double gap = 0;            // lines are broken where x jumps by more than this; 0: never
+  int dash = 0;              // pixels: length of dashes and of what is between them; 0: a full line
+
+  void Break();  // what is added from here on is not joined to what is there
 };
 
 /// A chart with axes, ticks, grid, labels and legend, drawn into a rectangle of an image.

@@ -1,5 +1,6 @@
 #include "tools/pictures/consistency_plot.h"
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 
 #include "common/geometry/degrees.h"
@@ -39,7 +40,8 @@ std::vector<std::string> Lines(const std::string& text) {
 
 }  // namespace
 
-void PlotConsistency(const std::string& path, const std::string& title, const Consistency& consistency) {
+void PlotConsistency(const std::string& path, const std::string& title, const Consistency& consistency,
+                     const std::vector<Utime>& breaks) {
   const std::vector<std::string> lines = Lines(title);
   const int top = 32 + kLine * static_cast<int>(lines.size());
   cv::Mat image(top + 1070, kWidth, CV_8UC3, cv::Scalar(255, 255, 255));
@@ -54,6 +56,8 @@ void PlotConsistency(const std::string& path, const std::string& title, const Co
     Series error{"error", kErrorColour, {}, {}, true, kLongestGap};
     Series above{"2 sigma", kBound, {}, {}, true, kLongestGap}, below{"", kBound, {}, {}, true, kLongestGap};
     for (const PoseError& row : errors) {
+      if (std::binary_search(breaks.begin(), breaks.end(), row.t))
+        for (Series* curve : {&error, &above, &below}) curve->Break();
       error.x.push_back(ToSeconds(row.t - t0));
       error.y.push_back(unit * row.error[k]);
       if (row.sigma[k] <= 0) continue;  // bootstrapping

@@ -51,5 +51,21 @@ TEST(RunPlot, WithAndWithoutTruthOrPoses) {
   }
 }
 
+// A gap of 0.2 s, shorter than those that break lines by themselves, neither over time nor from above.
+TEST(RunPlot, DrawsNoLineOverABreak) {
+  const TemporaryFolder folder("run_plot");
+  Trajectory estimate = Straight();
+  estimate.erase(estimate.begin() + 41, estimate.begin() + 60);
+  const auto ink = [&](const std::vector<Utime>& breaks, const cv::Rect& chart) {
+    PlotRun(folder.File("plot.png"), "title", Trajectory(), estimate, breaks);
+    cv::Mat blue;
+    cv::inRange(cv::imread(folder.File("plot.png"))(chart), cv::Scalar(178, 114, 0), cv::Scalar(178, 114, 0),
+                blue);
+    return cv::countNonZero(blue);
+  };
+  for (const cv::Rect& chart : {cv::Rect(10, 100, 960, 300), cv::Rect(980, 100, 510, 660)})
+    EXPECT_LT(ink({estimate[41].t}, chart), 0.9 * ink({}, chart));
+}
+
 }  // namespace
 }  // namespace evit::pictures

@@ -1,5 +1,7 @@
 #include "tools/pictures/run_plot.h"
 
+#include <algorithm>
+
 #include "common/geometry/degrees.h"
 #include "tools/pictures/chart.h"
 #include "tools/pictures/write_picture.h"
@@ -15,6 +17,10 @@ Eigen::Vector3d Turn(const Eigen::Quaterniond& reference, const Eigen::Quaternio
   return kDegreesPerRadian * LogSO3(reference.conjugate() * q);
 }
 
+bool IsBreak(const std::vector<Utime>& breaks, Utime t) {
+  return std::binary_search(breaks.begin(), breaks.end(), t);
+}
+
 struct PoseCharts {
   Chart position{"position", "time [s]", "[m]", {}, false, false};
   Chart rotation{"rotation since the start", "time [s]", "[deg]", {}, false, false};
@@ -22,7 +28,7 @@ struct PoseCharts {
 };
 
 // The axes of position and rotation, each as two lines, and the path from above.
-PoseCharts ChartPoses(const Trajectory& truth, const Trajectory& estimate) {
+PoseCharts ChartPoses(const Trajectory& truth, const Trajectory& estimate, const std::vector<Utime>& breaks) {
   const Trajectory& base = estimate.empty() ? truth : estimate;
   const Utime t0 = base.empty() ? 0 : base.front().t;
   const Eigen::Quaterniond reference = base.empty() ? Eigen::Quaterniond::Identity() : base.front().pose.q;
@@ -44,7 +50,11 @@ PoseCharts ChartPoses(const Trajectory& truth, const Trajectory& estimate) {
       if (!estimate.empty() && (s.t < estimate.front().t || s.t > estimate.back().t)) continue;
       add(s, axis, &p_truth, &r_truth, &path_truth);
     }
-    for (const StampedPose& s : estimate) add(s, axis, &p, &r, &path_estimate);
+    for (const StampedPose& s : estimate) {
+      if (IsBreak(breaks, s.t)) p.Break(), r.Break();
+      if (IsBreak(breaks, s.t) && axis == 0) path_estimate.Break();
+      add(s, axis, &p, &r, &path_estimate);
+    }
     charts.position.series.insert(charts.position.series.end(), {p_truth, p});
     charts.rotation.series.insert(charts.rotation.series.end(), {r_truth, r});
   }
@@ -57,10 +67,12 @@ struct ErrorCharts {
   Chart rotation{"orientation error", "time [s]", "[deg]", {}, false, true};
 };
 
-ErrorCharts ChartErrors(const Trajectory& truth, const Trajectory& estimate) {
+ErrorCharts ChartErrors(const Trajectory& truth, const Trajectory& estimate,
+                        const std::vector<Utime>& breaks) {
   ErrorCharts charts;
   Series position{"", kError, {}, {}, true, kLongestGap}, rotation = position;
   for (const StampedPose& s : estimate) {
+    if (IsBreak(breaks, s.t)) position.Break(), rotation.Break();
     SE3 at;
     if (!PoseAt(truth, s.t, &at)) continue;
     const double t = ToSeconds(s.t - estimate.front().t);
@@ -78,14 +90,14 @@ ErrorCharts ChartErrors(const Trajectory& truth, const Trajectory& estimate) {
 }  // namespace
 
 void PlotRun(const std::string& path, const std::string& title, const Trajectory& truth,
-             const Trajectory& estimate) {
+             const Trajectory& estimate, const std::vector<Utime>& breaks) {
   cv::Mat image(1130, 1500, CV_8UC3, cv::Scalar(255, 255, 255));
   DrawText(&image, title, {750, 40}, 0.8, Anchor::kCenter, {20, 20, 20}, 2);
-  const PoseCharts poses = ChartPoses(truth, estimate);
+  const PoseCharts poses = ChartPoses(truth, estimate, breaks);
   poses.position.Draw(&image, {10, 60, 960, 350});
   poses.rotation.Draw(&image, {10, 410, 960, 350});
   poses.top.Draw(&image, {980, 60, 510, 700});
-  const ErrorCharts errors = ChartErrors(truth, estimate);
+  const ErrorCharts errors = ChartErrors(truth, estimate, breaks);
   errors.position.Draw(&image, {10, 765, 740, 350});
   errors.rotation.Draw(&image, {755, 765, 735, 350});
   WritePicture(path, image);

@@ -11,7 +11,7 @@ namespace evit::run {
 /// Adds what the recorder heard: keyframes, modes, services' counters and stages.
 void FillFromRecorder(const Recorder& recorder, report::Report* report);
 
-/// Adds ATE in the three alignments and the milestones, and coverage.
+/// Adds ATE in the three alignments and the milestones.
 void FillErrors(const Trajectory& truth, const Trajectory& estimate, report::Report* report);
 
 /// Adds how well the covariances fit the errors.

@@ -11,6 +11,7 @@
 #include "tools/run/report_writer.h"
 #include "tools/run/run_summary.h"
 #include "tools/run/run_verdict.h"
+#include "tools/run/tracked_time.h"
 
 namespace evit::run {
 namespace {
@@ -102,6 +103,7 @@ report::Report MakeReport(const RunJob& job, const RunInputs& inputs, const Reco
   }
   FillFromRecorder(recorder, &report);
   report.set_sequence_s(PlayedSeconds(inputs, recorder, outcome));
+  FillTrackedTime(recorder.online(), job.play.loops, &report);
   FillRates(pipeline, outcome, &report);
   FillRestarts(pipeline, outcome, &report);
   if (outcome.latency != nullptr) FillLatency(*outcome.latency, &report);
@@ -126,17 +128,19 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
   WriteCovariances(job.out + "/covariance.csv", recorder.covariances());
   WriteReport(job.out + "/report.json", report);
   const std::string title = RunTitle(job, report, online);
-  bool drawn = Draw([&] { pictures::PlotRun(job.out + "/trajectory.png", title, inputs.truth, online); });
+  const std::vector<Utime> breaks = BreaksOf(online, UntrackedSpans(report));
+  bool drawn =
+      Draw([&] { pictures::PlotRun(job.out + "/trajectory.png", title, inputs.truth, online, breaks); });
   if (!consistency.errors.empty()) {
     drawn &= Draw([&] {
-      pictures::PlotConsistency(job.out + "/consistency.png", ConsistencyText(consistency), consistency);
+      pictures::PlotConsistency(job.out + "/consistency.png", ConsistencyText(consistency), consistency,
+                                breaks);
     });
   }
   PrintSummary(job, inputs, report, title, consistency, outcome.latency != nullptr);
 
-  const std::string failure =
-      FailureOf(report, report.keyframes() == 0 ? StatusText(recorder) : recorder.mode().reason,
-                TrackedShare(online, report.sequence_s()), UntimelyOf(report));
+  const std::string failure = FailureOf(
+      report, report.keyframes() == 0 ? StatusText(recorder) : recorder.mode().reason, UntimelyOf(report));
   if (!failure.empty()) std::fprintf(stderr, "evit run: %s\n", failure.c_str());
   if (outcome.ended == "interrupted") return 130;
   if (!failure.empty()) return 2;

@@ -44,20 +44,35 @@ std::string LossText(const report::Report& report) {
   return FormatText("%.0f messages lost", lost);
 }
 
+std::string TimesText(int n) { return n == 1 ? "once" : std::to_string(n) + " times"; }
+
+// What examines the recording, with all that it can use.
+std::string DoctorCommand(const RunJob& job) {
+  return "evit doctor --log " + job.log + " --rig " + job.rig + (job.map.empty() ? "" : " --map " + job.map) +
+         (job.truth.empty() ? "" : " --truth " + job.truth);
+}
+
 // What to ask when errors are out of all proportion.
 void PrintAbsurdity(const RunJob& job) {
   std::printf(
       "that is far more than what the poses know of themselves: are the truth's poses those of the IMU, in "
-      "the map's frame? evit doctor --log %s --map %s --rig %s --truth %s says\n",
-      job.log.c_str(), job.map.c_str(), job.rig.c_str(), job.truth.c_str());
+      "the map's frame? %s says\n",
+      DoctorCommand(job).c_str());
 }
 
 }  // namespace
 
+std::string LossesText(const RunJob& job, const report::Report& report) {
+  if (report.times_lost() == 0) return "";
+  return FormatText("LOST %s, %.0f %% of the time (last: %s); what may be wrong: %s",
+                    TimesText(report.times_lost()).c_str(), 100 * report.lost_share(),
+                    report.last_loss().c_str(), DoctorCommand(job).c_str());
+}
+
 std::string RunTitle(const RunJob& job, const report::Report& report, const Trajectory& poses) {
   std::string name = std::filesystem::path(job.log).stem().string();
   if (poses.empty()) return name + ": no pose";
-  const double share = 100 * TrackedShare(poses, report.sequence_s());
+  const double share = 100 * report.coverage();
   std::string text;
   if (report.ate().empty()) {
     text = FormatText(": %sposes for %.0f %% of the sequence",
@@ -68,12 +83,14 @@ std::string RunTitle(const RunJob& job, const report::Report& report, const Traj
                       all.position_rmse_cm(), all.orientation_rmse_deg(), share);
   }
   const double first = ToSeconds(poses.front().t - static_cast<Utime>(report.begin_utime()));
-  return name + text + (first > kLateStart ? FormatText(", first pose after %.1f s", first) : "");
+  if (first > kLateStart) text += FormatText(", first pose after %.1f s", first);
+  return name + text + (report.times_lost() > 0 ? ", LOST " + TimesText(report.times_lost()) : "");
 }
 
 void PrintSummary(const RunJob& job, const RunInputs& inputs, const report::Report& report,
                   const std::string& title, const Consistency& consistency, bool latency) {
   std::printf("%s\n", title.c_str());
+  if (report.times_lost() > 0) std::printf("%s\n", LossesText(job, report).c_str());
   if (!report.not_scored().empty()) std::printf("%s\n", report.not_scored().c_str());
   const bool scored = !consistency.errors.empty();
   if (scored) {

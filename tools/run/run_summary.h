@@ -11,9 +11,13 @@
 
 namespace evit::run {
 
-/// One line that says how the run went, also over its picture: name of the log, ATE (cm, deg), share with
-/// poses. `poses`: those that were scored.
+/// One line that says how the run went, also over its picture: name of the log, ATE (cm, deg), coverage,
+/// how often it was lost. `poses`: those that were scored.
 std::string RunTitle(const RunJob& job, const report::Report& report, const Trajectory& poses);
+
+/// How often and for which share of the time the tracker was lost, why at last, and what to ask; empty:
+/// never.
+std::string LossesText(const RunJob& job, const report::Report& report);
 
 /// Says on stdout in a few lines how the run went, what got lost and where the results are. `consistency` is
 /// empty without truth; `latency`: whether it was measured.

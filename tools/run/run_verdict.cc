@@ -46,18 +46,7 @@ Untimely UntimelyOf(const report::Report& report) {
   return out;
 }
 
-double TrackedShare(const Trajectory& poses, double seconds) {
-  constexpr Utime kTogether = 500'000;  // us
-  Utime covered = 0;
-  for (std::size_t k = 1; k < poses.size(); ++k) {
-    const Utime step = poses[k].t - poses[k - 1].t;
-    if (step <= kTogether) covered += step;
-  }
-  return seconds > 0 ? ToSeconds(covered) / seconds : 0;
-}
-
-std::string FailureOf(const report::Report& report, const std::string& reason, double tracked_share,
-                      const Untimely& untimely) {
+std::string FailureOf(const report::Report& report, const std::string& reason, const Untimely& untimely) {
   // The cause before what may have come of it.
   if (const std::string channels = ForeignChannels(report); !channels.empty()) {
     return "two senders on " + channels +
@@ -66,10 +55,10 @@ std::string FailureOf(const report::Report& report, const std::string& reason, d
   }
   if (report.keyframes() == 0) return "no keyframe was tracked; " + reason;
   if (report.final_mode() != "TRACKING") return report.final_mode() + " at the end: " + reason;
-  if (tracked_share < kMinTracked)
+  if (report.coverage() < kMinTracked)
     return FormatText(
         "poses cover only %.0f %% of the time that was played; mode_changes in report.json say why",
-        100 * tracked_share);
+        100 * report.coverage());
   if (untimely.events_share > kMaxUntimely || untimely.imu_share > kMaxUntimely) {
     return FormatText(
         "%.0f %% of the events and %.0f %% of the IMU samples came too late or lie far ahead: their "

@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "common/evaluation/trajectory.h"
 #include "tools/run/report.pb.h"
 
 namespace evit::run {
@@ -15,12 +14,8 @@ struct Untimely {
 /// From frame_builder's counters.
 Untimely UntimelyOf(const report::Report& report);
 
-/// Share of the time that was played, s, in which poses came, at most half a second apart.
-double TrackedShare(const Trajectory& poses, double seconds);
-
-/// Why the run failed, for a person; empty where it did not. `report` has the final mode and the number
-/// of keyframes; `reason` is the tracker's for its mode.
-std::string FailureOf(const report::Report& report, const std::string& reason, double tracked_share,
-                      const Untimely& untimely);
+/// Why the run failed, for a person; empty where it did not. `report` has the final mode, the
+/// number of keyframes and the coverage; `reason` is the tracker's for its mode.
+std::string FailureOf(const report::Report& report, const std::string& reason, const Untimely& untimely);
 
 }  // namespace evit::run
