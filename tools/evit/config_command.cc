@@ -7,6 +7,7 @@
 #include "common/config/rig_file.h"
 #include "common/config/settings_file.h"
 #include "common/config/settings_text.h"
+#include "common/diagnosis/rig_checks.h"
 #include "tools/evit/commands.h"
 
 namespace evit::commands {
@@ -44,6 +45,18 @@ void CheckSettings(const std::string& file) {
   std::printf("%s: good\n", file.c_str());
 }
 
+// A rig that can be read may still be that of another resolution: what the doctor says of it by itself.
+void CheckRigFile(const std::string& file) {
+  bool good = true;
+  for (const diagnosis::Finding& finding : diagnosis::CheckRig(LoadRig(file))) {
+    if (finding.severity == diagnosis::Severity::kGood) continue;
+    std::printf("%s: warning: %s %s; %s\n", file.c_str(), finding.figure.c_str(), finding.what.c_str(),
+                finding.remedy.c_str());
+    good = false;
+  }
+  if (good) std::printf("%s: good\n", file.c_str());
+}
+
 void AddCheck(CLI::App* config) {
   struct Options {
     std::vector<std::string> files, rigs;
@@ -55,10 +68,7 @@ void AddCheck(CLI::App* config) {
   check->callback([o] {
     if (o->files.empty() && o->rigs.empty()) throw std::runtime_error("give a settings file, or --rig FILE");
     for (const std::string& file : o->files) CheckSettings(file);
-    for (const std::string& file : o->rigs) {
-      LoadRig(file);
-      std::printf("%s: good\n", file.c_str());
-    }
+    for (const std::string& file : o->rigs) CheckRigFile(file);
   });
 }
 

@@ -9,7 +9,9 @@
 namespace evit::commands {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 using Result = test::ProgramOutcome;
 
@@ -37,6 +39,38 @@ TEST_F(ConfigCommand, CheckAcceptsGoodFilesAndNamesTheFaultOfOthers) {
   EXPECT_THAT(result.output, HasSubstr("bad.textproto:2:1: point: no such key; did you mean points?"));
   EXPECT_EQ(Config("check --rig " + test::SourcePath("logs/rig.textproto")).code, 0);
   EXPECT_EQ(Config("check").code, 1);
+}
+
+// A copy of the sample's rig with a part of its camera changed.
+std::string Changed(const std::string& from, const std::string& to) {
+  std::ifstream file(test::SourcePath("logs/rig.textproto"));
+  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST_F(ConfigCommand, CheckWarnsOfIntrinsicsOfAnotherResolution) {
+  EXPECT_THAT(Config("check --rig " + test::SourcePath("logs/rig.textproto")).output, HasSubstr(": good"));
+  const std::string half =
+      Write("half.textproto",
+            Changed("width: 320                     # pixels\n  height: 240", "width: 160\n  height: 120"));
+  const Result result = Config("check --rig " + half);
+  EXPECT_EQ(result.code, 0);
+  EXPECT_THAT(result.output, AllOf(HasSubstr("half.textproto: warning"), HasSubstr("principal point"),
+                                   Not(HasSubstr("good"))));
+  const std::string metres = Write("metres.textproto", Changed("fx: 163.663745", "fx: 0.327"));
+  EXPECT_THAT(Config("check --rig " + metres).output, HasSubstr("look at fx"));
+}
+
+// The same twentieth as an import; what is left is no log.
+TEST_F(ConfigCommand, FeedRefusesASizeThatDropsManyEvents) {
+  const std::string feed =
+      "feed --from " + test::SourcePath("logs/sample.lcmlog") + " --out " + Path("fed.lcmlog");
+  const Result half = test::RunEvit(feed + " --size 160x120");
+  EXPECT_EQ(half.code, 1);
+  EXPECT_THAT(half.output, AllOf(HasSubstr("outside the sensor"), HasSubstr("more than 5 %")));
+  EXPECT_FALSE(std::filesystem::exists(Path("fed.lcmlog")));
+  EXPECT_EQ(test::RunEvit(feed + " --size 320x240").code, 0);
+  EXPECT_TRUE(std::filesystem::exists(Path("fed.lcmlog")));
 }
 
 TEST_F(ConfigCommand, NamesKeysOfEarlierVersions) {

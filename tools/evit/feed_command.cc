@@ -19,6 +19,7 @@
 #include "tools/evit/output_names.h"
 #include "tools/feed/fake_camera.h"
 #include "tools/feed/feed_loop.h"
+#include "tools/formats/import/drop_counts.h"
 
 namespace evit::commands {
 namespace {
@@ -107,13 +108,18 @@ void Feed(const FeedCommand& o) {
         std::fprintf(stderr, tty ? "\r%lld events, %lld IMU samples" : "%lld events, %lld IMU samples\n",
                      static_cast<long long>(c.events), static_cast<long long>(c.imu));
       });
-  if (publisher.counts().events == 0) throw std::runtime_error(input->name() + ": sent no events");
+  if (publisher.counts().events + publisher.counts().outside == 0)
+    throw std::runtime_error(input->name() + ": sent no events");
   if (log) log->Close();
   if (tty) std::fputc('\n', stderr);
   PrintCounts(publisher.counts(), std::chrono::duration<double>(Clock::now() - begin).count());
   if (bus && bus->send_errors() > 0)
     throw std::runtime_error(std::to_string(bus->send_errors()) +
                              " messages could not be sent; is the LCM URL's network up?");
+  // Published or not, a wrong --size is told; a log is left only where it is whole.
+  formats::DropCounts dropped;
+  dropped.outside = publisher.counts().outside;
+  formats::RequireMostKept(input->name(), dropped, publisher.counts().events, "events");
   if (file) file->Commit();
 }
 

@@ -163,6 +163,22 @@ TEST_F(RunFilesTest, ExtrinsicsThatWereNotInvertedAreNoticed) {
   ExpectRefused(AllOf(HasSubstr("rig.textproto"), HasSubstr("looks like its inverse")));
 }
 
+TEST_F(RunFilesTest, ARigOfASmallerImageIsRefused) {
+  job_.log = test::SourcePath("logs/sample.lcmlog");
+  job_.map = test::SourcePath("logs/sample_map.pcd");
+  job_.truth = job_.initial_from = test::SourcePath("logs/sample_truth.tum");
+  Rig rig = LoadRig(test::SourcePath("logs/rig.textproto"));
+  job_.rig = Path("rig.textproto");
+  rig.camera.width = 319;  // a column of 320 is few
+  WriteRig(job_.rig, rig, "nearly", "");
+  EXPECT_NO_THROW(PrepareRun(job_));
+  std::filesystem::remove_all(job_.out);
+  rig.camera.width = 160, rig.camera.height = 120;
+  WriteRig(job_.rig, rig, "half", "");
+  ExpectRefused(AllOf(HasSubstr("rig.textproto (width: 160, height: 120)"), HasSubstr("largest x is 319"),
+                      HasSubstr("largest y 239")));
+}
+
 TEST_F(RunFilesTest, SlowTruthGivesTheStartAndTheScore) {
   Trajectory truth;
   for (int k = 0; k <= 100; k += 25) truth.push_back({kStart - 100'000 + Utime{10'000} * k, At(k)});

@@ -19,6 +19,7 @@
 #include "common/map/photometric_map.h"
 #include "tools/run/extrinsics_check.h"
 #include "tools/run/log_span.h"
+#include "tools/run/sensor_check.h"
 
 namespace evit::run {
 namespace {
@@ -67,7 +68,8 @@ std::optional<SE3> StartPose(const RunJob& job, Utime begin) {
 
 RunInputs PrepareRun(const RunJob& job) {
   RunInputs inputs;
-  const PipelineOptions options = LoadOptionsFor(LoadRig(job.rig).camera, job.config);
+  const Camera camera = LoadRig(job.rig).camera;
+  const PipelineOptions options = LoadOptionsFor(camera, job.config);
   inputs.settings = SettingsText(options);
   const bool photometric = options.method == PipelineOptions::Method::kEvpt;
   const std::string settings = job.config.empty() ? "the default settings" : job.config;
@@ -89,6 +91,7 @@ RunInputs PrepareRun(const RunJob& job) {
   }
   if (!job.photometric_map.empty()) LoadPhotometricMap(job.photometric_map);
   const LogSpan span = ReadLogSpan(job);
+  CheckSensor(job, span, camera);
   inputs.begin = span.begin;
   inputs.end = span.end;
   inputs.n_events = span.n_events;
