@@ -54,7 +54,12 @@ std::string FailureOf(const report::Report& report, const std::string& reason, c
            "it, or give this run --prefix NAME/ or another port in --lcm-url";
   }
   if (report.keyframes() == 0) return "no keyframe was tracked; " + reason;
-  if (report.final_mode() != "TRACKING") return report.final_mode() + " at the end: " + reason;
+  if (report.final_mode() != "TRACKING")
+    return report.final_mode() + " at the end: " + reason +
+           (report.poses() == 0 ? "; the start was never found: is it another place than the map's, are the "
+                                  "extrinsics inverted, or is the IMU of another clip? "
+                                  "docs/troubleshooting.md, \"It does not find its start pose\""
+                                : "");
   if (report.coverage() < kMinTracked)
     return FormatText(
         "poses cover only %.0f %% of the time that was played; mode_changes in report.json say why",

@@ -15,7 +15,7 @@ struct Untimely {
 Untimely UntimelyOf(const report::Report& report);
 
 /// Why the run failed, for a person; empty where it did not. `report` has the final mode, the
-/// number of keyframes and the coverage; `reason` is the tracker's for its mode.
+/// numbers of keyframes and poses, and the coverage; `reason` is the tracker's for its mode.
 std::string FailureOf(const report::Report& report, const std::string& reason, const Untimely& untimely);
 
 }  // namespace evit::run

@@ -6,11 +6,13 @@
 namespace evit::run {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 report::Report Tracked() {
   report::Report report;
   report.set_keyframes(100);
+  report.set_poses(90);
   report.set_final_mode("TRACKING");
   report.set_events(1000);
   report.set_coverage(0.9);
@@ -31,6 +33,16 @@ TEST(RunVerdict, BeingLostAtTheEndIsAFailureWithItsReason) {
   report::Report report = Tracked();
   report.set_final_mode("LOST");
   EXPECT_EQ(FailureOf(report, "no events", {}), "LOST at the end: no events");
+}
+
+TEST(RunVerdict, AStartThatWasNeverFoundNamesWhatMayBeWrong) {
+  report::Report report = Tracked();
+  report.set_poses(0);
+  report.set_final_mode("BOOTSTRAPPING");
+  EXPECT_THAT(FailureOf(report, "places followed: 2", {}),
+              AllOf(HasSubstr("BOOTSTRAPPING at the end: places followed: 2; the start was never found"),
+                    HasSubstr("another place"), HasSubstr("inverted"), HasSubstr("IMU of another clip"),
+                    HasSubstr("docs/troubleshooting.md")));
 }
 
 TEST(RunVerdict, NoKeyframeIsAFailure) {
