@@ -162,12 +162,10 @@ void AddRunCommand(CLI::App* app) {
       "desk/truth.tum "
       "--out result\n"
       "Exit code: 0 tracking at the end (times_lost in report.json: how often it was LOST before); 1 could "
-      "not "
-      "run, or a\n"
+      "not run, or a\n"
       "result could not be written; 2 LOST at the end, never tracking, or tracked less than half of the "
-      "time; "
-      "3 tracked, but --truth has too few poses\n"
-      "for a score; 130 interrupted.");
+      "time;\n"
+      "3 tracked, but --truth has too few poses for a score; 130 interrupted.");
   run->callback([o] { RunAndShow(o.get()); });
 }
 

@@ -14,8 +14,8 @@
 namespace evit::run {
 namespace {
 
-constexpr std::size_t kPackets = 300;        // are decoded: some hundred thousand events
-constexpr std::int64_t kMostOutside = 20;    // one in so many, as in imports
+constexpr std::size_t kPackets = 300;      // are decoded: some hundred thousand events
+constexpr std::int64_t kMostOutside = 20;  // one in so many, as in imports
 
 }  // namespace
 
