@@ -28,11 +28,11 @@ Finding Unit(const MapSummary& s) {
   if (s.median_spacing > 0.5 || extent > 3000) {
     return {"map-unit", Severity::kError, figure,
             "The map is too large for metres: it is in millimetres or centimetres, or far from its origin.",
-            "convert it: `evit map import --scale 0.001` (or 0.01)"};
+            "convert it: `evit map import MAP --scale 0.001 --out metres.pcd` (or 0.01)"};
   }
   if (extent < 0.2) {
     return {"map-unit", Severity::kError, figure, "The map is smaller than a hand: its unit is not metres.",
-            "convert it: `evit map import --scale`"};
+            "convert it: `evit map import MAP --scale FACTOR --out metres.pcd`"};
   }
   if (s.median_spacing > 0.1) {
     return {"map-spacing", Severity::kWarning, figure, "The map's points are far apart.",

@@ -56,7 +56,7 @@ std::optional<Finding> OtherUnit(const MapIndex& map, const World& world, const 
     *best = kappa;
     return Finding{"map-unit", Severity::kError, FormatText("overlap %.2f, of 1, where it is scaled", kappa),
                    FormatText("The map is in %s: scaled by %g it lies on the events.", name, metres),
-                   FormatText("convert it: `evit map import --scale %g`", metres)};
+                   FormatText("convert it: `evit map import MAP --scale %g --out metres.pcd`", metres)};
   }
   return {};
 }

@@ -63,8 +63,9 @@ std::string Remedy(const Misplacement& m, const Rig& rig) {
           "set `time_offset_us: %.0f` in the rig file's camera, then let `evit calibrate` find it exactly",
           static_cast<double>(rig.camera_time_offset) + 1e6 * m.value.x());
     case Kind::kScale:
-      return FormatText("measure a known distance in the map; `evit map import --scale %.3f` mends the map",
-                        1 / (1 + m.value.x()));
+      return FormatText(
+          "measure a known distance in the map; `evit map import MAP --scale %.3f --out mended.pcd` mends it",
+          1 / (1 + m.value.x()));
     case Kind::kFocal:
     case Kind::kCentre:
       return "calibrate the camera with the lens and focus of the recording (Kalibr), and take over fx, fy, "

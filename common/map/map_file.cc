@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -203,27 +204,30 @@ MapSummary Summarize(const PointMap& map) {
 void RequireMetres(const MapSummary& summary, const std::string& path) {
   const float farthest = std::max(summary.min.cwiseAbs().maxCoeff(), summary.max.cwiseAbs().maxCoeff());
   const float typical = summary.median.cwiseAbs().maxCoeff();
+  const std::string stem = std::filesystem::path(path).stem().string();
   if (typical > kFarAway) {
-    char text[300];
+    char text[200], matrix[200];
     std::snprintf(
         text, sizeof text,
         ": coordinates up to %.0f m, where single precision has steps of %.2f m; move the map to where you "
-        "are with `evit map import --transform \"1 0 0 %.0f 0 1 0 %.0f 0 0 1 %.0f 0 0 0 1\"`",
-        farthest, std::nextafter(farthest, 2 * farthest) - farthest, -std::round(summary.median.x()),
-        -std::round(summary.median.y()), -std::round(summary.median.z()));
-    throw std::runtime_error(path + text);
+        "are with ",
+        farthest, std::nextafter(farthest, 2 * farthest) - farthest);
+    std::snprintf(matrix, sizeof matrix, " --transform \"1 0 0 %.0f 0 1 0 %.0f 0 0 1 %.0f 0 0 0 1\" --out ",
+                  -std::round(summary.median.x()), -std::round(summary.median.y()),
+                  -std::round(summary.median.z()));
+    throw std::runtime_error(path + text + "`evit map import " + path + matrix + stem + "_moved.pcd`");
   }
   const float extent = (summary.max - summary.min).maxCoeff();
   // Edges sampled more coarsely than a metre are not a semi-dense map; a few stray points far away do
   // not matter, so the spacing is what tells.
   if (summary.n_points < 100 || summary.median_spacing < 0.5) return;
-  char text[300];
-  std::snprintf(
-      text, sizeof text,
-      ": neighbouring points are %.1f m apart and the map is %.0f m wide: it looks like millimetres or "
-      "centimetres, not metres; convert it with `evit map import --scale 0.001` (0.01 for centimetres)",
-      summary.median_spacing, extent);
-  throw std::runtime_error(path + text);
+  char text[200];
+  std::snprintf(text, sizeof text,
+                ": neighbouring points are %.1f m apart and the map is %.0f m wide: it looks like "
+                "millimetres or centimetres, not metres; convert it with ",
+                summary.median_spacing, extent);
+  throw std::runtime_error(path + text + "`evit map import " + path + " --scale 0.001 --out " + stem +
+                           "_metres.pcd` (0.01 for centimetres)");
 }
 
 }  // namespace evit

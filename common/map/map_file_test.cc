@@ -142,7 +142,7 @@ TEST(RequireMetresTest, TellsMillimetres) {
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("map.pcd: "));
     EXPECT_THAT(error.what(), HasSubstr("millimetres"));
-    EXPECT_THAT(error.what(), HasSubstr("--scale 0.001"));
+    EXPECT_THAT(error.what(), HasSubstr("`evit map import map.pcd --scale 0.001 --out map_metres.pcd`"));
   }
 }
 

@@ -83,14 +83,14 @@ void AddMapCommand(CLI::App* app) {
   CLI::App* convert =
       map->add_subcommand("import", "Convert a point cloud (PCD, PLY, text) to binary PCD, in metres, z up");
   convert->add_option("IN", o->in, "Point cloud to read")->required();
-  convert->add_option("OUT", o->out, "PCD to write")->required();
+  convert->add_option("--out,OUT", o->out, "PCD to write")->required();
   convert->add_option("--scale", o->scale, "Multiply coordinates, e.g. 0.001 for millimetres")
       ->check(CLI::PositiveNumber);
   convert->add_option("--transform", o->transform,
                       "16 numbers, row-major 4x4: moves the points (after scaling)");
   convert->add_option("--voxel", o->voxel, "Keep one point per cell of this size, m")
       ->check(CLI::PositiveNumber);
-  convert->footer("Example: evit map import scan_mm.ply map.pcd --scale 0.001 --voxel 0.01");
+  convert->footer("Example: evit map import scan_mm.ply --scale 0.001 --voxel 0.01 --out map.pcd");
   convert->callback([o] {
     const SE3 T = o->transform.empty() ? SE3() : ParseTransform("--transform", o->transform);
     LoadedMap loaded = LoadMap(o->in, {o->scale, T});
