@@ -42,10 +42,8 @@ void AddMonitorCommand(CLI::App* app) {
   command->add_option("--prefix", o->monitor.prefix, "Prefix of all channels");
   command->footer("Example: evit monitor   (then open http://127.0.0.1:8080)");
   command->callback([o] {
-    const std::string url = monitor::PageUrl(o->monitor);
-    std::printf("monitor: %s  (Ctrl-C ends it)\n", url.c_str());
-    std::fflush(stdout);
-    if (o->open) monitor::OpenBrowser(url);
+    monitor::SayUrl(o->monitor, "  (Ctrl-C ends it)");
+    if (o->open) monitor::OpenBrowser(monitor::PageUrl(o->monitor));
     if (monitor::MonitorProcess(o->monitor, o->lcm_url).Run() != 0) throw CLI::RuntimeError(1);
   });
 }

@@ -127,8 +127,7 @@ void ShowPage(RunOptions* o, std::optional<monitor::MonitorChild>* shown) {
   o->page.rig = o->job.rig;
   o->page.prefix = o->job.prefix;
   shown->emplace(o->page, o->job.lcm_url);
-  std::printf("monitor: %s\n", monitor::PageUrl(o->page).c_str());
-  std::fflush(stdout);
+  monitor::SayUrl(o->page, "");
   monitor::OpenBrowser(monitor::PageUrl(o->page));
 }
 

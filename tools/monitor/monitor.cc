@@ -29,7 +29,7 @@ Monitor::Monitor(const MonitorOptions& options)
       page_([this](ClientId client) { server_.Wake(client); },
             [this](const PageOrder& order) { return Give(order); }),
       foxglove_([this](ClientId client) { server_.Wake(client); }),
-      server_(WithProtocols(options.web), LoadPage(), this) {}
+      server_(WithProtocols(options.web), LoadPage(PageFolder()), this) {}
 
 Monitor::~Monitor() = default;
 

@@ -16,12 +16,20 @@
 
 #include "common/service/stop_signals.h"
 #include "tools/monitor/monitor_process.h"
+#include "tools/monitor/page_files.h"
 
 namespace evit::monitor {
 
 std::string PageUrl(const MonitorOptions& options) {
   const std::string host = options.web.bind == "0.0.0.0" ? "127.0.0.1" : options.web.bind;
   return "http://" + host + ":" + std::to_string(options.web.port);
+}
+
+void SayUrl(const MonitorOptions& options, const char* hint) {
+  std::printf("monitor: %s%s\n", PageUrl(options).c_str(), hint);
+  std::fflush(stdout);
+  const std::string missing = MissingPage(PageFolder());
+  if (!missing.empty()) std::fprintf(stderr, "monitor: warning: %s\n", missing.c_str());
 }
 
 void OpenBrowser(const std::string& url) {

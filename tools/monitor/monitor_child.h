@@ -11,6 +11,9 @@ namespace evit::monitor {
 /// Where viewers find a monitor, e.g. "http://127.0.0.1:8080".
 std::string PageUrl(const MonitorOptions& options);
 
+/// Says on stdout where the page is, and on stderr if it was not built.
+void SayUrl(const MonitorOptions& options, const char* hint);
+
 /// Opens the page in the user's browser, where there is a desktop; else does nothing.
 void OpenBrowser(const std::string& url);
 

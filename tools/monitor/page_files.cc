@@ -9,9 +9,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The default build of the programs leaves it out; scripts/setup does nothing where Node.js is there.
+#define EVIT_BUILD_PAGE "scripts/setup programs page && scripts/build release monitor_page"
+
 constexpr char kNoPage[] = R"(<!doctype html><meta charset="utf-8"><title>evit monitor</title>
-<h1>This build of EVIT has no page</h1>
-<p>It is built where Node.js is: <code>apt install nodejs npm</code>, then <code>scripts/build</code>.
+<h1>This page has not been built</h1>
+<p>In the folder of EVIT's sources run <code>)" EVIT_BUILD_PAGE R"(</code>, then start the monitor again.
 <p>Foxglove and Lichtblick can connect to this port as it is; <code>evit top</code> shows the pipeline in a terminal.
 )";
 
@@ -22,9 +25,17 @@ std::string ReadAll(const fs::path& path) {
 
 }  // namespace
 
-std::vector<WebFile> LoadPage() {
-  const fs::path folder =
-      fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share" / "evit-monitor";
+std::string PageFolder() {
+  return fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share" / "evit-monitor";
+}
+
+std::string MissingPage(const std::string& folder) {
+  if (fs::exists(fs::path(folder) / "index.html")) return "";
+  return "its page has not been built; in the folder of EVIT's sources run: " EVIT_BUILD_PAGE;
+}
+
+std::vector<WebFile> LoadPage(const std::string& page) {
+  const fs::path folder = page;
   std::vector<WebFile> files;
   const auto add = [&](const char* name, const char* type) {
     if (fs::exists(folder / name)) files.push_back({name, type, ReadAll(folder / name)});
