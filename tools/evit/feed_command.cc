@@ -9,7 +9,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "common/bus/lcm_bus.h"
 #include "common/bus/log_file.h"
 #include "common/files/staged_file.h"
 #include "common/service/runner.h"
@@ -17,7 +16,9 @@
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
 #include "tools/evit/output_names.h"
+#include "tools/evit/pipeline_bus.h"
 #include "tools/feed/fake_camera.h"
+#include "tools/feed/feed_listeners.h"
 #include "tools/feed/feed_loop.h"
 #include "tools/formats/import/drop_counts.h"
 
@@ -25,7 +26,7 @@ namespace evit::commands {
 namespace {
 
 struct FeedCommand {
-  int tcp = 0, udp = 0;
+  int tcp = 0, udp = 0, pid = 0;
   std::string from, out, lcm_url, prefix, size;
   bool realtime = false, to_stdout = false;
   double imu_offset = 0;
@@ -71,10 +72,12 @@ void Feed(const FeedCommand& o) {
   const std::unique_ptr<feed::FeedInput> input = OpenInput(o);
   if (o.to_stdout) return CopyRecords(input.get(), stop);
   std::unique_ptr<Bus> bus;
+  std::optional<feed::FeedListeners> listeners;
   std::optional<StagedFile> file;
   std::unique_ptr<LogWriter> log;
   if (o.out.empty()) {
-    bus = OpenLcmBus(ResolveLcmUrl(o.lcm_url));
+    bus = OpenBusToFeed(o.lcm_url, o.pid);  // behind the input, whose port is this host's
+    listeners.emplace(ResolveLcmUrl(o.lcm_url), o.prefix);
   } else {
     RequireLogOutput("--out", o.out);
     RequireNotAnInput("--out", o.out, {o.from});
@@ -102,6 +105,7 @@ void Feed(const FeedCommand& o) {
   feed::RunFeed(
       input.get(), &publisher, [&] { return stop.received(); },
       [&](const feed::FeedCounts& c) {
+        if (listeners) listeners->Tick();
         const Clock::time_point now = Clock::now();
         if (!tty && now - shown < std::chrono::seconds(3)) return;
         shown = now;
@@ -116,6 +120,7 @@ void Feed(const FeedCommand& o) {
   if (bus && bus->send_errors() > 0)
     throw std::runtime_error(std::to_string(bus->send_errors()) +
                              " messages could not be sent; is the LCM URL's network up?");
+  if (listeners && !stop.received()) listeners->Finish();
   // Published or not, a wrong --size is told; a log is left only where it is whole.
   formats::DropCounts dropped;
   dropped.outside = publisher.counts().outside;
@@ -145,7 +150,9 @@ void AddFeedCommand(CLI::App* app) {
                    "Seconds to add to IMU stamps to get the clock of the events");
   feed->add_flag("--align-clocks", o->options.align_clocks,
                  "Find that offset in the first second, from when data arrive");
-  feed->add_option("--lcm-url", o->lcm_url, "LCM URL (default: LCM_DEFAULT_URL, else LCM's own default)");
+  feed->add_option("--lcm-url", o->lcm_url,
+                   "Bus (default: LCM_DEFAULT_URL, else that of the pipeline running here)");
+  feed->add_option("--pid", o->pid, "Process of the evit up to feed, where several run here");
   feed->add_option("--prefix", o->prefix, "Prefix of the channels");
   feed->footer(
       "Records are fixed and little-endian. Event, 16 bytes: u8 1, u8 polarity, u16 x, u16 y, u16 0, i64 t "

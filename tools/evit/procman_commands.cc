@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
@@ -8,30 +9,18 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/bus/lcm_bus.h"
-#include "common/service/runner.h"
 #include "common/service/stop_signals.h"
 #include "procman/sheriff.h"
 #include "tools/evit/commands.h"
+#include "tools/evit/pipeline_bus.h"
+#include "tools/evit/service_log.h"
 #include "tools/run/local_network.h"
+#include "tools/run/run_file.h"
 
 namespace evit::commands {
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(5);
-
-// The bus of the pipeline that runs here, or the one that was asked for.
-std::unique_ptr<Bus> OpenBusOfPipeline(const std::string& lcm_url) {
-  if (run::IsLocalBus(lcm_url)) {
-    const auto running = run::FindRunning();
-    if (running) run::JoinNetworkOf(*running);
-    if (!running) {
-      throw std::runtime_error(
-          "neither `evit run` nor `evit up` is running on this host; give --lcm-url to reach another one");
-    }
-  }
-  return OpenLcmBus(ResolveLcmUrl(lcm_url));
-}
 
 std::string Condition(const procman_lcm::cmd_status_t& status) {
   if (status.pid != 0) return "running";
@@ -62,35 +51,54 @@ struct LogOptions {
   bool follow = false;
 };
 
-// The end of its log file, where the pipeline runs on this host.
-bool PrintLogFile(const LogOptions& o) {
-  const auto running = run::FindRunning();
-  if (!running) return false;
-  std::ifstream file(std::filesystem::path(running->logs) / (o.command + ".log"));
+// The end of a log file; false where there is none.
+bool PrintLogFile(const std::string& path, int lines) {
+  std::ifstream file(path);
   if (!file) return false;
   std::deque<std::string> last;
   for (std::string line; std::getline(file, line);) {
     last.push_back(line);
-    if (last.size() > static_cast<std::size_t>(o.lines)) last.pop_front();
+    if (last.size() > static_cast<std::size_t>(lines)) last.pop_front();
   }
   for (const std::string& line : last) std::printf("%s\n", line.c_str());
   std::fflush(stdout);
   return true;
 }
 
+// Where the newest pipeline on this host's own bus says that its logs are.
+std::string LogFileOfRunning(const std::string& id) {
+  const auto running = run::FindRunning();
+  return running ? (std::filesystem::path(running->logs) / (id + ".log")).string() : "";
+}
+
+// The log file by what its deputy says: any of its processes leads to it. Throws where no deputy knows `id`.
+std::string LogFileByBus(procman::Sheriff* sheriff, const std::string& id) {
+  bool known = false;
+  std::string path;
+  for (const auto& [name, info] : sheriff->Look(kPatience)) {
+    const auto has = [&](const auto& status) { return status.cmd.command_id == id; };
+    if (std::none_of(info.cmds.begin(), info.cmds.end(), has)) continue;
+    known = true;
+    for (const auto& status : info.cmds) {
+      if (path.empty() && status.pid != 0) path = LogFileOfCommand(status.pid, id);
+    }
+  }
+  if (!known) throw std::runtime_error("there is no command \"" + id + "\"; evit ps lists the commands");
+  return path;
+}
+
 void Logs(const LogOptions& o) {
-  const bool local = PrintLogFile(o);
+  bool local = run::IsLocalBus(o.lcm_url) && PrintLogFile(LogFileOfRunning(o.command), o.lines);
   if (local && !o.follow) return;
   const auto bus = OpenBusOfPipeline(o.lcm_url);
   procman::Sheriff sheriff(bus.get());
-  bool known = false;
-  for (const auto& [name, info] : sheriff.Look(kPatience)) {
-    for (const auto& status : info.cmds) known = known || status.cmd.command_id == o.command;
-  }
-  if (!known)
-    throw std::runtime_error("there is no command \"" + o.command + "\"; evit ps lists the commands");
+  const std::string path = LogFileByBus(&sheriff, o.command);
+  local = local || PrintLogFile(path, o.lines);
+  if (local && !o.follow) return;
   if (!local && !o.follow) {
-    throw std::runtime_error("its log file is on another host; --follow shows its output from now on");
+    throw std::runtime_error(
+        "its log file is not found: its pipeline runs on another host or for another user, or all its "
+        "services have stopped; --follow shows its output from now on");
   }
   sheriff.OnOutput([&](const procman_lcm::output_t& message) {
     if (message.command_id != o.command) return;

@@ -14,6 +14,7 @@
 #include "procman/script_runner.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/data_file.h"
+#include "tools/evit/deployment_files.h"
 #include "tools/evit/options.h"
 #include "tools/run/alone_on_bus.h"
 #include "tools/run/local_network.h"
@@ -21,6 +22,9 @@
 
 namespace evit::commands {
 namespace {
+
+// LCM's own default, without the private network that no variable means: ttl=0 keeps it on this host.
+constexpr char kOpenUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 
 struct UpOptions {
   std::string file, script, deputy, logs, lcm_url;
@@ -60,6 +64,16 @@ void SetDefaults(const std::filesystem::path& logs) {
   setenv("EVIT_STATE", state.c_str(), 1);
 }
 
+// Programs started outside this process's network would send and hear nothing.
+void SayIsolated() {
+  std::printf(
+      "the services have a network of their own, as this host has no multicast route through lo; evit feed, "
+      "ps, top, logs and monitor join it. For a driver or tools of your own, set in both shells: "
+      "export LCM_DEFAULT_URL='%s'\n",
+      kOpenUrl);
+  std::fflush(stdout);
+}
+
 // As it is named, or a deployment that comes with EVIT.
 std::string DeploymentFile(const std::string& name) {
   const bool plain = name.find('/') == std::string::npos && !std::filesystem::exists(name);
@@ -72,6 +86,7 @@ void Up(const UpOptions& o) {
   const std::vector<procman::ProcmanCommand> commands = CommandsOf(deployment, o, &deputy_id);
   std::filesystem::create_directories(o.logs);
   SetDefaults(std::filesystem::absolute(o.logs));
+  RequireFiles(deployment, o.script, deputy_id);
 
   const std::string url = ResolveLcmUrl(o.lcm_url);
   std::unique_ptr<run::RunFile> run_file;
@@ -82,6 +97,7 @@ void Up(const UpOptions& o) {
   }
   setenv("LCM_DEFAULT_URL", url.c_str(), 1);  // for the commands
   const auto bus = OpenLcmBus(url);
+  if (own_network) SayIsolated();
   if (!own_network) run::RequireAlone(bus.get(), deputy_id);
   // What the commands say is shown as it comes over the bus, like in any sheriff.
   bus->Subscribe(procman::kPmOutput, [&](const std::string&, const std::uint8_t* data, std::size_t size) {
