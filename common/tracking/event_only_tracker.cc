@@ -13,10 +13,14 @@ namespace {
 
 constexpr StartRange kRange{0.05, 0.05, 3};  // how far a body may get between two frames, and then some
 constexpr double kFrameError = 0.03;         // m: that a frame's pose may have besides
-// Neighbouring frames show mostly the same events at the same places: errors of ten are about one's.
+// Neighbouring frames show the same edges, at 300 Hz mostly by the same events: errors of ten are about
+// one's.
 constexpr double kFrameShare = 0.1;  // of what a frame's events say is new
 constexpr double kFarthest = 0.1;    // s: for how long a velocity is believed
-constexpr int kPatience = 150;       // frames that do not fit before it says LOST: at rest none does
+// What is known of the motion would hold a false pose as well as a right one: every so many frames the events
+// alone have their say.
+constexpr int kLookAround = 30;
+constexpr int kPatience = 150;  // frames that do not fit before it says LOST: at rest none does
 
 }  // namespace
 
@@ -40,6 +44,7 @@ void EventOnlyTracker::Start(const BodyState& state) {
   state_ = state;
   rate_.setZero();
   aligned_at_ = 0;
+  moving_ = false;
   rejected_ = 0;
   mode_ = TrackerMode::kBootstrapping;
   reason_ = "continuing from a checkpoint";
@@ -73,19 +78,16 @@ void EventOnlyTracker::AddVisible(const std::vector<std::int32_t>& ids,
 
 TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
   const double seconds = aligned_at_ > 0 ? ToSeconds(keyframe.t - aligned_at_) : 0;
-  const bool moves_on = KeepsVelocity() && seconds > 0;
   MotionFilter motion = motion_;
+  const bool moves_on = moving_ && seconds > 0 && seconds <= kFarthest;
+  if (moves_on) motion.Predict(seconds);
   BodyState predicted = state_;
-  Matrix6d known = InformationOf(kRange);
-  if (moves_on) {
-    motion.Predict(std::min(seconds, kFarthest));
-    predicted.T_map_body = motion.state().T_map_body;
-    known = motion.PoseInformation() / kFrameShare;
-  }
+  if (moves_on) predicted.T_map_body = motion.state().T_map_body;
   const SurfaceField field(keyframe.surface, kRange.levels);
   const AlignmentPoints points = points_.Select(predicted, rate_, points_.per_keyframe(), keyframe.seq);
-  const LocalizerResult fit =
-      LocalizeBest(alignment_, field, points, predicted.T_map_body, known, kRange.levels);
+  const Matrix6d known = moves_on ? Matrix6d(motion.PoseInformation() / kFrameShare) : InformationOf(kRange);
+  LocalizerResult fit = LocalizeBest(alignment_, field, points, predicted.T_map_body, known, kRange.levels);
+  const bool misled = moves_on && keyframe.seq % kLookAround == 0 && LooksAround(field, points, &fit);
   state_time_ = keyframe.t;
   TrackerOutput out;
   out.quality = fit.quality;
@@ -93,13 +95,16 @@ TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
   if (IsReachable(fit.T_map_body, seconds) &&
       LiesOnEvents(fit.quality, options_.failure.min_contrast, fit.significance, kFollowSignificance)) {
     const Matrix6d alignment = EvaluateAlignmentExactly(alignment_, field, points, fit.T_map_body).hessian;
-    if (moves_on) {
-      motion.Update(fit.T_map_body, kFrameShare * alignment);
-    } else {
-      motion.Start(fit.T_map_body, kFrameShare * alignment + InformationOf(kRange));
+    if (moves_on && !misled) {
+      // No fit was surer than the prediction: it is not one more observation.
+      const bool moved = fit.T_map_body.p != predicted.T_map_body.p;
+      motion.Update(fit.T_map_body, (moved ? kFrameShare : 0) * alignment);
+    } else if (KeepsVelocity()) {
+      motion.Start(fit.T_map_body, kFrameShare * (alignment + InformationOf(kRange)));
     }
     motion_ = motion;
-    Accept(keyframe, KeepsVelocity() ? motion.state() : MotionTo(fit.T_map_body, seconds));
+    moving_ = KeepsVelocity();
+    Accept(keyframe, moving_ ? motion.state() : MotionTo(fit.T_map_body, seconds));
     out.information.topLeftCorner<6, 6>() = alignment;
     out.information.bottomRightCorner<9, 9>().setIdentity();
     uncertainty_.SetAlignment(alignment, MeasureMisfit(alignment_, field, points, fit.T_map_body));
@@ -114,6 +119,16 @@ TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
   out.mode = mode_;
   out.reason = reason_;
   return out;
+}
+
+// Whether the events alone say that the pose is another; `fit` is that then.
+bool EventOnlyTracker::LooksAround(const SurfaceField& field, const AlignmentPoints& points,
+                                   LocalizerResult* fit) const {
+  const LocalizerResult wide = LocalizeBest(alignment_, field, points, fit->T_map_body, kRange);
+  if (SignificanceOver(alignment_, field, points, wide.T_map_body, fit->T_map_body) < kTrackingSignificance)
+    return false;
+  *fit = wide;
+  return true;
 }
 
 // A frame may fit elsewhere by chance, where nothing can get to in that time. At the start, or where the

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/tracking/localizer.h"
 #include "common/tracking/map_tracker.h"
 #include "common/tracking/motion_filter.h"
 #include "common/tracking/point_selector.h"
@@ -42,6 +43,7 @@ class EventOnlyTracker final : public MapTracker {
     return options_.window.motion_model != WindowOptions::MotionModel::kPreviousPose;
   }
   bool IsReachable(const SE3& T_map_body, double seconds) const;
+  bool LooksAround(const SurfaceField& field, const AlignmentPoints& points, LocalizerResult* fit) const;
   MotionFilter::State MotionTo(const SE3& T_map_body, double seconds) const;
   void Accept(const KeyframeInput& keyframe, const MotionFilter::State& state);
   void Reject();
@@ -53,8 +55,9 @@ class EventOnlyTracker final : public MapTracker {
   PoseUncertainty uncertainty_;
   TrackerMode mode_ = TrackerMode::kBootstrapping;
   std::string reason_ = "waiting for the first keyframe";
-  BodyState state_;                                 // at aligned_at_
-  MotionFilter motion_;                             // the same, while KeepsVelocity()
+  BodyState state_;      // at aligned_at_
+  MotionFilter motion_;  // the same, while moving_
+  bool moving_ = false;  // whether a filter of its motion has begun, which PREVIOUS_POSE has none of
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();  // rad/s, body frame
   Utime aligned_at_ = 0;                            // us: newest keyframe whose events the map lay on
   Utime state_time_ = 0;

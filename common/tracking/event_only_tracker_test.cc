@@ -30,8 +30,43 @@ TEST_P(EventOnlyTrackerWith, TracksWithoutTheImuAndSaysWhenItIsLost) {
   }
   EXPECT_GT(out.covariance(0, 0), 0);
   const auto other = synthetic::RoomPoints(60, 99);
-  for (int k = 0; k < 200; ++k) out = bench.Step(1'503'333 + k * 3'333, other);
+  Utime t = 1'503'333;
+  for (int k = 0; k < 200; ++k, t += 3'333) out = bench.Step(t, other);
   EXPECT_EQ(out.mode, TrackerMode::kLost);
+}
+
+// A second in which the lens is covered: the body is elsewhere, and does not move as it did.
+TEST_P(EventOnlyTrackerWith, GoesOnAfterAHole) {
+  const Motion motion;
+  TrackerOptions options = TestOptions();
+  options.event_only = true;
+  options.window.motion_model = GetParam();
+  Bench bench(options, motion.State(1.0).T_map_body);
+  for (Utime t = 1'000'000; t <= 1'100'000; t += 3'333) bench.Step(t, bench.room);
+  // The stamps say a second, the body has moved for 20 ms.
+  bench.clock = 1'000'000;
+  TrackerOutput out;
+  for (Utime t = 1'120'000; t <= 1'150'000; t += 3'333) {
+    out = bench.Step(t, bench.room);
+    ASSERT_TRUE(out.has_pose);
+    EXPECT_LT((out.nodes.back().state.T_map_body.p - motion.State(ToSeconds(t)).T_map_body.p).norm(), 0.02);
+    EXPECT_LT(out.nodes.back().state.velocity.norm(), 3);
+  }
+}
+
+TEST_P(EventOnlyTrackerWith, ResumesFromACheckpoint) {
+  const Motion motion;
+  TrackerOptions options = TestOptions();
+  options.event_only = true;
+  options.window.motion_model = GetParam();
+  Bench bench(options, motion.State(0.0).T_map_body);
+  bench.tracker->Start(1'000'000, motion.State(1.0), Matrix15d::Identity());
+  TrackerOutput out;
+  for (Utime t = 1'010'000; t <= 1'050'000; t += 3'333) {
+    out = bench.Step(t, bench.room);
+    ASSERT_TRUE(out.has_pose);
+    EXPECT_LT((out.nodes.back().state.T_map_body.p - motion.State(ToSeconds(t)).T_map_body.p).norm(), 0.02);
+  }
 }
 
 // As if seen from 10 cm beside.

@@ -8,7 +8,7 @@ namespace evit {
 namespace {
 
 // Power of the accelerations, as those of a hand or a robot have: 5 m/s^2 and 20 rad/s^2 that last for a
-// tenth of a second. Ten times as much or as little changes errors by a twentieth (docs/results/trials.md).
+// tenth of a second. It matters little (docs/results/trials.md).
 constexpr double kAccelPower = 5, kAngularPower = 80;  // m^2/s^3, rad^2/s^3
 constexpr double kSpeedSigma = 1, kRateSigma = 3;      // m/s, rad/s: before anything is known
 
@@ -32,7 +32,8 @@ void MotionFilter::Predict(double seconds) {
   const double t = seconds;
   const Eigen::Matrix3d turn = ExpSO3(t * state_.rate).toRotationMatrix();
   Matrix12d F = Matrix12d::Identity();
-  F.block<3, 3>(0, 6) = F.block<3, 3>(3, 9) = t * Eigen::Matrix3d::Identity();
+  F.block<3, 3>(0, 6) = t * Eigen::Matrix3d::Identity();
+  F.block<3, 3>(3, 9) = t * RightJacobianSO3(t * state_.rate);
   F.block<3, 3>(3, 3) = turn.transpose();
   covariance_ = (F * covariance_ * F.transpose()).eval();
   for (int i = 0; i < 6; ++i) {
