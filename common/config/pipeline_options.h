@@ -11,7 +11,7 @@ namespace evit {
 struct PipelineOptions {
   enum class Method {
     kEvit,  // the window: events and IMU
-    kEvt,   // the paper's baseline: each frame localised by its events alone, from the previous pose; no IMU
+    kEvt,   // each frame localised by its events alone, no IMU; with the previous pose the paper's baseline
     kEvpt   // the paper's other baseline: events against brightness changes predicted from a photometric map;
             // no IMU
   };

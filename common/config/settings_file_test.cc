@@ -61,12 +61,11 @@ TEST_F(SettingsFile, SetsOnlyWhatItSays) {
 
 // As they were shipped with version 0.1.
 TEST_F(SettingsFile, FullCopiesOfEarlierVersionsLoadToTheSameValues) {
-  for (const char* name : {"tracker", "evt"}) {
+  for (const auto& [name, now] : {std::pair("tracker", "tracker"), std::pair("evt", "evt_paper")}) {
     const LoadedSettings earlier = LoadSettings(kEarlier + name + "_0.1.textproto");
-    PipelineOptions expected = LoadOptions(kConfig + name + ".textproto");
+    PipelineOptions expected = LoadOptions(kConfig + now + ".textproto");
     expected.keyframes.n_event = 30'000;  // what has another default since
     expected.keyframes.min_events = 2000;
-    if (std::string(name) == "evt") expected.window.motion_model = WindowOptions::MotionModel::kPreviousPose;
     expected.surface.blur_sigma_px = 0.5;
     expected.points.max_active = 5000;
     expected.points.margin_px = 40;

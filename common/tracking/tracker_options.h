@@ -71,7 +71,7 @@ struct TrackerOptions {
   FailureOptions failure;
   int min_events = 500;  // a keyframe of fewer is hardly more than noise (KeyframeOptions has the same)
   double lag_px = 0.25;  // how far events are behind the edges that cause them (SurfaceOptions has the same)
-  bool event_only = false;  // EVT, the paper's baseline: each frame by its events alone, no IMU
+  bool event_only = false;  // EVT: each frame by its events alone, no IMU
 };
 
 }  // namespace evit

@@ -33,11 +33,11 @@ std::string Track(CalibrateOptions* o) {
   if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
   job.initial_from = o->from;
   if (!o->seconds.empty()) job.play.seconds = ParseSeconds(o->seconds);
-  if (job.config.empty()) job.config = DataFile("config/evt.textproto");
+  if (job.config.empty()) job.config = DataFile("config/evt_paper.textproto");
   if (LoadOptions(job.config).method != PipelineOptions::Method::kEvt) {
     throw std::runtime_error(
         job.config +
-        ": expected evt { }, as in config/evt.textproto: poses that used the IMU already "
+        ": expected evt { }, as in config/evt_paper.textproto: poses that used the IMU already "
         "depend on the extrinsics");
   }
   if (job.out.empty()) job.out = o->out + ".evt";
@@ -129,7 +129,8 @@ void AddCalibrateCommand(CLI::App* app) {
   for (CLI::Option* other : {pose, from, poses}) truth->excludes(other);
   calibrate->add_option("--out", o->out, "Rig file to write; with --truth only if given");
   calibrate->add_option("--seconds", o->seconds, "A:B in s, use only this part of the log");
-  calibrate->add_option("--config", o->job.config, "Event-only tracking (default: config/evt.textproto)");
+  calibrate->add_option("--config", o->job.config,
+                        "Event-only tracking (default: config/evt_paper.textproto)");
   calibrate->add_option("--work", o->job.out, "Folder for the event-only run (default: OUT.evt)");
   calibrate->footer(
       "Example: evit calibrate --log calib.lcmlog --map map.pcd --rig rig.textproto --initial-pose \"0 0 1 0 "

@@ -36,6 +36,8 @@ class PaperConfig : public ::testing::Test {
 
 TEST_F(PaperConfig, ShippedOneHasThePapersSequencesAndMethods) {
   const paper::Paper config = ShippedPaper();
+  for (const paper::Method& method : config.method())
+    EXPECT_EQ(method.config() == "evt_paper.textproto", method.name() == "EVT") << method.id();
   ASSERT_EQ(config.sequence_size(), 6);
   EXPECT_EQ(config.sequence(0).name(), "sofa_normal");
   EXPECT_GE(config.method_size(), 4);
