@@ -66,6 +66,16 @@ void PrintCounts(const feed::FeedCounts& c, double seconds) {
                static_cast<long long>(c.invalid), 1e-6 * static_cast<double>(c.imu_offset));
 }
 
+// Published or not, a wrong --size is told.
+void RequireMostSent(const std::string& input, const feed::FeedCounts& counts, const Bus* bus) {
+  if (bus != nullptr && bus->send_errors() > 0)
+    throw std::runtime_error(std::to_string(bus->send_errors()) +
+                             " messages could not be sent; is the LCM URL's network up?");
+  formats::DropCounts dropped;
+  dropped.outside = counts.outside;
+  formats::RequireMostKept(input, dropped, counts.events, "events");
+}
+
 void Feed(const FeedCommand& o) {
   using Clock = std::chrono::steady_clock;
   const StopSignals stop;
@@ -117,15 +127,9 @@ void Feed(const FeedCommand& o) {
   if (log) log->Close();
   if (tty) std::fputc('\n', stderr);
   PrintCounts(publisher.counts(), std::chrono::duration<double>(Clock::now() - begin).count());
-  if (bus && bus->send_errors() > 0)
-    throw std::runtime_error(std::to_string(bus->send_errors()) +
-                             " messages could not be sent; is the LCM URL's network up?");
   if (listeners && !stop.received()) listeners->Finish();
-  // Published or not, a wrong --size is told; a log is left only where it is whole.
-  formats::DropCounts dropped;
-  dropped.outside = publisher.counts().outside;
-  formats::RequireMostKept(input->name(), dropped, publisher.counts().events, "events");
-  if (file) file->Commit();
+  RequireMostSent(input->name(), publisher.counts(), bus.get());
+  if (file) file->Commit();  // a log is left only where it is whole
 }
 
 }  // namespace

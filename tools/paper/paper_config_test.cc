@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "common/config/config_error.h"
 #include "common/config/settings_file.h"
 #include "common/config/settings_text.h"
@@ -37,7 +39,9 @@ class PaperConfig : public ::testing::Test {
 TEST_F(PaperConfig, ShippedOneHasThePapersSequencesAndMethods) {
   const paper::Paper config = ShippedPaper();
   for (const paper::Method& method : config.method())
-    EXPECT_EQ(method.config() == "evt_paper.textproto", method.name() == "EVT") << method.id();
+    EXPECT_EQ(std::filesystem::path(method.config()).filename() == "evt_paper.textproto",
+              method.name() == "EVT")
+        << method.id();
   ASSERT_EQ(config.sequence_size(), 6);
   EXPECT_EQ(config.sequence(0).name(), "sofa_normal");
   EXPECT_GE(config.method_size(), 4);
