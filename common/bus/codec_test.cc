@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "tests/helpers/paths.h"
-#include "tests/helpers/sample_messages.h"
+#include "tests/helpers/sample_map_messages.h"
 
 namespace evit {
 namespace {

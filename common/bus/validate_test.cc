@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include "tests/helpers/sample_messages.h"
+#include "tests/helpers/sample_map_messages.h"
 
 namespace evit {
 namespace {

@@ -12,8 +12,6 @@
 namespace evit {
 namespace {
 
-constexpr int kMaxIterations = 15;
-
 void Judge(const AlignmentSettings& settings, const SurfaceField& field, const AlignmentPoints& points,
            LocalizerResult* result) {
   const AlignmentVerdict verdict = JudgeAlignment(settings, field, points, result->T_map_body);
@@ -82,7 +80,7 @@ LocalizerResult LocalizeBest(const AlignmentSettings& settings, const SurfaceFie
   int iterations = 0;
   for (int depth = 1; depth <= std::min(levels, field.levels()); ++depth) {
     const LocalizerResult fit =
-        LocalizeFrom(settings, field, points, start, information, depth, kMaxIterations);
+        LocalizeFrom(settings, field, points, start, information, depth, kLocalizerIterations);
     iterations += fit.iterations;
     if (fit.significance > best.significance) best = fit;
   }

@@ -23,9 +23,11 @@ struct StartRange {
 /// Inverse covariance over (dp, dtheta).
 Matrix6d InformationOf(const StartRange& range);
 
+constexpr int kLocalizerIterations = 15;  // of the solver, for each level
+
 LocalizerResult Localize(const AlignmentSettings& settings, const SurfaceField& field,
                          const AlignmentPoints& points, const SE3& start, const StartRange& range,
-                         int max_iterations = 15);
+                         int max_iterations = kLocalizerIterations);
 
 /// Localize() from each depth up to the range's, and the start itself: the pose that explains the frame most
 /// surely (AlignmentSignificance). A coarse level may be as wide as the scene's own structure, or crowd all

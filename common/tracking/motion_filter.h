@@ -6,11 +6,8 @@
 
 namespace evit {
 
-/// Where a body is that goes on as it does but for accelerations that nobody foresees: a Kalman filter of
-/// pose and velocities, for poses that are found one by one without an IMU.
-///
-/// Accelerations are white noise of so much power (spectral density), which makes the velocities random
-/// walks.
+/// A Kalman filter of a body's pose and velocities, for poses that are found one by one without an IMU. The
+/// body is expected to keep its velocities but for random accelerations (white noise).
 class MotionFilter {
  public:
   struct State {

@@ -4,7 +4,7 @@
 
 #include "common/bus/codec.h"
 #include "common/wire/geometry_wire.h"
-#include "tests/helpers/sample_messages.h"
+#include "tests/helpers/sample_map_messages.h"
 
 namespace evit {
 namespace {

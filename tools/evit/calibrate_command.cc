@@ -109,8 +109,7 @@ void Calibrate(CalibrateOptions* o) {
 void AddCalibrateCommand(CLI::App* app) {
   auto o = std::make_shared<CalibrateOptions>();
   CLI::App* calibrate = app->add_subcommand(
-      "calibrate",
-      "Find extrinsics and time offset of camera and IMU, and the tilt of the map, from a recording");
+      "calibrate", "Find extrinsics and time offset of camera and IMU, and the tilt of the map");
   calibrate->add_option("--log", o->job.log, "LCM log with EVENTS and IMU (evit import)")->required();
   calibrate->add_option("--map", o->job.map, "Semi-dense map: PCD, PLY or text, metres")->required();
   calibrate->add_option("--rig", o->job.rig, "Rig file to start from")->required();

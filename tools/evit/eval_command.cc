@@ -12,6 +12,7 @@
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
 #include "tools/pictures/consistency_plot.h"
+#include "tools/run/tracked_time.h"
 
 namespace evit::commands {
 namespace {
@@ -94,6 +95,8 @@ Evaluation Evaluate(const EvalOptions& o) {
 void PrintJson(const EvalOptions& o, const Evaluation& e) {
   nlohmann::json out{{"truth", o.truth},
                      {"estimate", o.estimate},
+                     {"coverage", run::Coverage(e.estimate, run::BreaksOf(e.estimate, {}),
+                                                ToSeconds(e.truth.back().t - e.truth.front().t))},
                      {"reached", e.whole.reached},
                      {"poses", e.estimate.size()},
                      {"not_scored", e.unscored}};

@@ -39,7 +39,7 @@ void ImportOptions::AddTo(CLI::App* source, bool require_out) {
       ->required(require_out);
   source->add_option(
       "--T-map-world", transform,
-      "16 numbers, row-major 4x4, from the frame of the ground truth to that of the map (default: identity)");
+      "16 numbers, row-major 4x4, from the ground truth's frame to the map's (default: identity)");
   source->add_option("--seconds", seconds, "A:B in s after the first event, take only this part");
   source->add_option("--accel-unit", accel_unit, "The accelerometer's unit")
       ->check(CLI::IsMember(UnitNames(kAccelUnits)))

@@ -132,7 +132,7 @@ void AddImportRecording(CLI::App* import) {
   import
       ->add_option(
           "--t-body-camera", o->T_body_camera,
-          "Camera in the body (IMU) frame, for --rig-out: \"x y z qx qy qz qw\" (default: the calibration's)")
+          "Camera in the body (IMU) frame, for --rig-out: \"x y z qx qy qz qw\" (default: as calibrated)")
       ->needs(calibration);
   import->add_option("--imu", o->job.imu,
                      "Another file with the IMU: a table, HDF5, a bag, ...; none: no IMU");

@@ -32,11 +32,11 @@ void RequireNoReplay(const std::string& url) {
 std::unique_ptr<Bus> OpenBusOfPipeline(const std::string& lcm_url) {
   if (run::IsLocalBus(lcm_url)) {
     const auto running = run::FindRunning();
-    if (running) run::JoinNetworkOf(*running);
     if (!running) {
       throw std::runtime_error(
           "neither `evit run` nor `evit up` is running on this host; give --lcm-url to reach another one");
     }
+    run::JoinNetworkOf(*running);
   }
   return OpenLcmBus(ResolveLcmUrl(lcm_url));
 }

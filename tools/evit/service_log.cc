@@ -1,6 +1,7 @@
 #include "tools/evit/service_log.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 

@@ -8,7 +8,7 @@
 #include "common/bus/memory_bus.h"
 #include "common/wire/geometry_wire.h"
 #include "tests/helpers/bus_messages.h"
-#include "tests/helpers/sample_messages.h"
+#include "tests/helpers/sample_map_messages.h"
 
 namespace evit::monitor {
 namespace {

@@ -10,12 +10,14 @@
 #include "common/bus/log_prefix.h"
 #include "common/files/decimal_time.h"
 #include "common/time/time_order.h"
+#include "common/wire/event_wire.h"
 #include "common/wire/imu_wire.h"
 
 namespace evit::run {
 namespace {
 
 constexpr Utime kNever = std::numeric_limits<Utime>::max();
+constexpr std::size_t kPackets = 300;           // of events, to see whether they can be true
 constexpr Utime kLook = 10 * kMicrosPerSecond;  // of IMU samples, to see whether they can be true
 
 // The messages of one channel; sensor time is read from them: logs of lcm-logger carry the host's clock.
@@ -60,6 +62,18 @@ std::vector<ImuSample> FirstSamples(const LogReader& log, const std::string& cha
   strict.strict = true;
   TimeOrderCounts counts;
   return InTimeOrder(samples, strict, &counts);
+}
+
+EventArray SomeEvents(const LogReader& log, const std::vector<const LogEntry*>& packets) {
+  const std::size_t stride = 1 + packets.size() / kPackets;
+  EventArray events;
+  std::vector<std::uint8_t> bytes;
+  event_packet_t message;
+  for (std::size_t k = 0; k < packets.size(); k += stride) {
+    log.Read(*packets[k], &bytes);
+    if (DecodeChecked(bytes.data(), bytes.size(), &message)) AppendEvents(message, &events);
+  }
+  return events;
 }
 
 }  // namespace
@@ -108,11 +122,14 @@ LogSpan ReadLogSpan(const RunJob& job) {
     throw std::runtime_error(job.log + ": contains no data in the part that --seconds selects");
   // The number of events follows from a message's length: nothing else has to be read.
   const std::int64_t bare = event_packet_t{}.getEncodedSize();
+  std::vector<const LogEntry*> packets;
   for (const LogEntry& entry : log.entries()) {
     const Utime t = entry.utime + log_to_sensor;
     if (log.channel(entry) != channels.events || t < span.begin || t > span.end) continue;
     span.n_events += std::max<std::int64_t>(0, (entry.size - bare) / 9);
+    packets.push_back(&entry);
   }
+  span.events = SomeEvents(log, packets);
   span.imu = FirstSamples(log, channels.imu);
   return span;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/events/event.h"
 #include "common/imu/imu_sample.h"
 #include "common/time/utime.h"
 #include "tools/run/run_job.h"
@@ -17,6 +18,7 @@ struct LogSpan {
   std::string prefix;           // of the log's channels
   std::int64_t lost_bytes = 0;  // after the last whole message, where job.tolerate.truncated
   std::vector<ImuSample> imu;   // the first ten seconds, in order of time
+  EventArray events;            // of packets spread over the part: some hundred thousand at most
 };
 
 /// Throws std::runtime_error naming the log and the remedy: no EVENTS or IMU, cut off (unless

@@ -65,6 +65,7 @@ void FillFromRecorder(const Recorder& recorder, report::Report* report) {
 
 void FillErrors(const Trajectory& truth, const Trajectory& estimate, report::Report* report) {
   const TrajectoryError whole = AbsoluteError(truth, estimate, Alignment::kNone);
+  report->set_reached(whole.reached);
   report->set_not_scored(whole.scored() ? UnscoredText(truth, estimate) : TooFewPairsText(truth, estimate));
   for (const auto& row : {std::pair("none", Alignment::kNone), std::pair("first pair", Alignment::kFirstPair),
                           std::pair("umeyama", Alignment::kUmeyama)}) {

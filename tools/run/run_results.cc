@@ -128,7 +128,7 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
   WriteCovariances(job.out + "/covariance.csv", recorder.covariances());
   WriteReport(job.out + "/report.json", report);
   const std::string title = RunTitle(job, report, online);
-  const std::vector<Utime> breaks = BreaksOf(online, UntrackedSpans(report));
+  const std::vector<Utime> breaks = BreaksOf(online, job.play.loops, report);
   bool drawn =
       Draw([&] { pictures::PlotRun(job.out + "/trajectory.png", title, inputs.truth, online, breaks); });
   if (!consistency.errors.empty()) {

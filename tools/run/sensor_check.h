@@ -6,7 +6,7 @@
 namespace evit::run {
 
 /// Throws std::runtime_error where more than a twentieth of the events lie outside the rig's image: the rig
-/// file is of another camera or resolution. Looks at packets spread over the part that is to be played.
+/// file is of another camera or resolution.
 void CheckSensor(const RunJob& job, const LogSpan& span, const Camera& camera);
 
 }  // namespace evit::run

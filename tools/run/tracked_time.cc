@@ -55,6 +55,10 @@ double Coverage(const Trajectory& poses, const std::vector<Utime>& breaks, doubl
   return seconds > 0 ? std::min(1.0, ToSeconds(covered) / seconds) : 0;
 }
 
+std::vector<Utime> BreaksOf(const Trajectory& poses, int loops, const report::Report& report) {
+  return BreaksOf(poses, loops > 1 ? std::vector<Untracked>() : UntrackedSpans(report));
+}
+
 void FillTrackedTime(const Trajectory& poses, int loops, report::Report* report) {
   const std::vector<Untracked> spans = UntrackedSpans(*report);
   int times = 0;
@@ -68,9 +72,7 @@ void FillTrackedTime(const Trajectory& poses, int loops, report::Report* report)
   report->set_times_lost(times);
   const double seconds = report->sequence_s();
   if (seconds > 0) report->set_lost_share(std::min(1.0, ToSeconds(lost) / (seconds * std::max(1, loops))));
-  // With several loops the stamps come again: which loop a span is of is not told, and none is left out.
-  report->set_coverage(
-      Coverage(poses, BreaksOf(poses, loops > 1 ? std::vector<Untracked>() : spans), seconds));
+  report->set_coverage(Coverage(poses, BreaksOf(poses, loops, *report), seconds));
 }
 
 }  // namespace evit::run

@@ -23,6 +23,10 @@ std::vector<Untracked> UntrackedSpans(const report::Report& report);
 /// span without tracking between the two.
 std::vector<Utime> BreaksOf(const Trajectory& poses, const std::vector<Untracked>& untracked);
 
+/// The same of a run. `poses`: of the last of `loops` times that the log was played. With several the stamps
+/// come again: which of them a span without tracking is of is not told, and none counts.
+std::vector<Utime> BreaksOf(const Trajectory& poses, int loops, const report::Report& report);
+
 /// Coverage, the share (0..1) of the time that was played (`seconds`) for which there are poses: what lies
 /// between two that follow from each other (BreaksOf).
 double Coverage(const Trajectory& poses, const std::vector<Utime>& breaks, double seconds);
