@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/bus/memory_bus.h"
@@ -52,8 +53,8 @@ class PipelineWatchTest : public ::testing::Test {
     m.width = 80;
     m.height = 60;
     m.surface_size = 80 * 60;
-    m.surface.assign(80 * 60, 255);
-    m.surface[30 * 80 + 40] = 7;
+    m.surface.assign(m.surface_size, 255);
+    m.surface[size_t{30} * 80 + 40] = 7;
     return m;
   }
 
@@ -97,7 +98,7 @@ TEST_F(PipelineWatchTest, ServicesThatShareAChannelAreNoLoss) {
   for (int seq = 0; seq < 3; ++seq) {
     for (const char* name : {"map_server", "log_replay"}) {
       status.service = name;
-      status.epoch = name[0];
+      status.epoch = name == std::string_view("map_server") ? 1 : 2;
       status.seq = seq;
       Send(channels_.status, status);
     }
@@ -149,10 +150,10 @@ TEST_F(PipelineWatchTest, TheCamerasPlaceIsLearntFromQueries) {
     const SE3 T_map_body(Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d::UnitZ())),
                          {0.2 * i, 1, 2});
     map_query_t query = Sample<map_query_t>();
-    query.utime = 1000 * i;
+    query.utime = int64_t{1000} * i;
     PutPose(T_map_body * T_body_camera, &query);
     Send(channels_.map_query, query);
-    Send(channels_.window_state, MakeWindow(1000 * i, T_map_body));
+    Send(channels_.window_state, MakeWindow(query.utime, T_map_body));
   }
   ASSERT_TRUE(watch_.mount()->T_body_camera());
   EXPECT_LT((watch_.mount()->T_body_camera()->p - T_body_camera.p).norm(), 1e-6);
