@@ -51,9 +51,13 @@ TEST(LoadMapTest, SurveyCoordinatesKeepTheirMillimetresWhenMoved) {
   const std::string pcd =
       "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
       "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ";
-  for (const std::string& bytes :
-       {text, ply, pcd + "ascii\n" + text,
-        pcd + "binary\n" + test::Raw(492818.3115) + test::Raw(5527515.2967) + test::Raw(0.2386)}) {
+  const std::string ascii = std::string(pcd).append("ascii\n").append(text);
+  const std::string binary = std::string(pcd)
+                                 .append("binary\n")
+                                 .append(test::Raw(492818.3115))
+                                 .append(test::Raw(5527515.2967))
+                                 .append(test::Raw(0.2386));
+  for (const std::string& bytes : {text, ply, ascii, binary}) {
     const test::TemporaryFile file(bytes, "survey");
     const LoadedMap loaded = LoadMap(file.path(), {1, T});
     ASSERT_EQ(loaded.map.points.size(), 1u);
