@@ -117,20 +117,24 @@ TEST_F(WholeSystemTest, ASecondSenderThatComesLaterIsTold) {
 }
 
 TEST_F(WholeSystemTest, AnInterruptedCalibrationLeavesNothingBehind) {
-  const std::string begin = kEvit + " calibrate --log " + kLogs + "sample.lcmlog";
+  const std::string calibrate = kEvit + " calibrate --log " + kLogs + "sample.lcmlog";
+  const std::string stop = "pkill -INT -f '^" + calibrate + " .*" + folder_.string() + "/'";
+  const std::string begin = "XDG_RUNTIME_DIR=" + folder_.string() + " " + calibrate + " --map " + kLogs +
+                            "sample_map.pcd --rig " + kLogs + "rig.textproto --initial-from " + kLogs +
+                            "sample_truth.tum --out " + Path("rig.textproto");
   fs::create_directories(Path("there"));
   std::ofstream(Path("there/mine")) << "x";
-  for (const auto& [option, work] :
-       {std::pair("", "rig.textproto.evt"), std::pair("--work", "a/b/c"), std::pair("--work", "there")}) {
+  struct Case {
+    const char *option, *work;
+  };
+  for (const Case& c : {Case{"", "rig.textproto.evt"}, Case{"--work ", "a/b/c"}, Case{"--work ", "there"}}) {
+    const std::string option = c.option, work = c.work;
+    std::string command = begin;
+    if (!option.empty()) command.append(" ").append(option).append(Path(work));
     Result calibration;
-    std::thread running([&, option = option, work = work] {
-      calibration = Shell("XDG_RUNTIME_DIR=" + folder_.string() + " " + begin + " --map " + kLogs +
-                          "sample_map.pcd --rig " + kLogs + "rig.textproto --initial-from " + kLogs +
-                          "sample_truth.tum --out " + Path("rig.textproto") +
-                          (*option != '\0' ? " " + std::string(option) + " " + Path(work) : ""));
-    });
+    std::thread running([&] { calibration = Shell(command); });
     EXPECT_TRUE(Eventually([&] { return fs::exists(Path(work) + "/window_optimizer.log"); }));
-    Shell("pkill -INT -f '^" + begin + " .*" + folder_.string() + "/'");
+    Shell(stop);
     running.join();
     EXPECT_EQ(calibration.code, 130) << calibration.output;
     EXPECT_FALSE(fs::exists(Path("rig.textproto"))) << calibration.output;
