@@ -8,6 +8,7 @@
 #include "common/diagnosis/dead_area.h"
 #include "common/diagnosis/dead_lines.h"
 #include "common/diagnosis/flicker.h"
+#include "common/diagnosis/readout_limit.h"
 #include "common/events/known_sensors.h"
 #include "common/text/format_text.h"
 
@@ -33,6 +34,7 @@ Finding Rate(const EventCensus& e) {
             "are set far too high.",
             "record while moving; lower the camera's contrast thresholds (bias_diff_on, bias_diff_off)"};
   }
+  if (const auto limited = CheckReadoutLimit(e)) return *limited;
   return Good("event-rate", figure);
 }
 
