@@ -42,8 +42,11 @@ TEST_F(WholeSystemTest, TracksTheSampleLogBitIdentically) {
   EXPECT_EQ(ReadAll(Path("a/covariance.csv")), ReadAll(Path("b/covariance.csv")));
   const Covariances covariances = ReadCovariances(Path("a/covariance.csv"));
   const Trajectory online = ReadTum(Path("a/trajectory.tum"));
-  ASSERT_EQ(covariances.size(), online.size());
-  for (std::size_t k = 0; k < online.size(); ++k) EXPECT_EQ(covariances[k].t, online[k].t);
+  // The poses of the bootstrapping have none and are left out; all that follow have one.
+  ASSERT_LE(covariances.size(), online.size());
+  ASSERT_GT(covariances.size(), online.size() * 9 / 10);
+  const std::size_t without = online.size() - covariances.size();
+  for (std::size_t k = 0; k < covariances.size(); ++k) EXPECT_EQ(covariances[k].t, online[without + k].t);
   EXPECT_GT(fs::file_size(Path("a/trajectory.png")), 10'000U);
   EXPECT_GT(fs::file_size(Path("a/consistency.png")), 10'000U);
   const std::string report = ReadAll(Path("a/report.json"));

@@ -122,8 +122,9 @@ TEST_F(CovarianceFile, ReadsWhatItWrote) {
   all[3].covariance.setZero();
   WriteCovariances(path_, all);
   const Covariances read = ReadCovariances(path_);
-  ASSERT_EQ(read.size(), 20U);
-  for (int k = 0; k < 20; ++k) {
+  all.erase(all.begin() + 3);  // without a covariance: left out, where zeros would pass for an exact pose
+  ASSERT_EQ(read.size(), all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
     EXPECT_EQ(read[k].t, all[k].t);
     EXPECT_LT((read[k].covariance - all[k].covariance).norm(), 1e-8 * (1e-9 + all[k].covariance.norm()));
   }

@@ -30,8 +30,9 @@ void WriteCovariances(const std::string& path, const Covariances& covariances) {
   WholeFile whole(path);
   std::ofstream& file = whole.stream();
   file << "# utime[us], upper triangle of the pose's covariance row by row: position x y z [m, map frame], "
-          "rotation x y z [rad, right perturbation, body frame]; zeros: none given\n";
+          "rotation x y z [rad, right perturbation, body frame]; poses without one are left out\n";
   for (const StampedCovariance& s : covariances) {
+    if (s.covariance.isZero(0)) continue;
     file << s.t;
     for (int r = 0; r < 6; ++r) {
       for (int c = r; c < 6; ++c) {

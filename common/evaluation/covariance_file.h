@@ -23,7 +23,8 @@ using Covariances = std::vector<StampedCovariance>;
 /// comments. Throws std::runtime_error naming file, line and what is wrong (fields, non-finite, order).
 Covariances ReadCovariances(const std::string& path);
 
-/// Writes such a file atomically, nine significant digits. Throws std::runtime_error naming the file.
+/// Writes such a file atomically, nine significant digits; poses without a covariance (all zero) are left
+/// out, so that a reader does not take them for exact. Throws std::runtime_error naming the file.
 void WriteCovariances(const std::string& path, const Covariances& covariances);
 
 }  // namespace evit

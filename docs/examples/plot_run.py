@@ -21,7 +21,7 @@ log_file, map_file, trajectory_file, picture = sys.argv[1:5]
 log = evit_read.read_log(log_file)
 points = evit_read.read_map(map_file)
 track = evit_read.read_trajectory(trajectory_file)
-begin = log["events"]["t"][0]
+begin = min(log["events"]["t"][0], log["imu"]["t"][0])  # as in the pictures of `evit run`
 
 
 def seconds(t):
@@ -37,13 +37,13 @@ above.set(xlabel="x, m", ylabel="y, m", aspect="equal", title="map and trajector
 for k, axis in enumerate("xyz"):
     along.plot(seconds(track["t"]), track["position"][:, k], label=axis)
     along.plot(seconds(log["truth"]["t"]), log["truth"]["position"][:, k], "k:", linewidth=1)
-along.set(xlabel="s", ylabel="m", title="position; dotted: truth")
+along.set(xlabel="s since the start of the log", ylabel="m", title="position; dotted: truth")
 along.legend()
 
 counts, edges = np.histogram(seconds(log["events"]["t"]), bins=200)
 rates.plot(edges[:-1], counts / np.diff(edges) * 1e-6, label="million events/s")
 rates.plot(seconds(log["imu"]["t"]), np.linalg.norm(log["imu"]["gyro"], axis=1), label="angular rate, rad/s")
-rates.set(xlabel="s")
+rates.set(xlabel="s since the start of the log")
 rates.legend()
 figure.tight_layout()
 figure.savefig(picture, dpi=100)

@@ -142,8 +142,11 @@ void PrintText(const Evaluation& e) {
 
 void RunEval(const EvalOptions& o) {
   const Evaluation evaluation = Evaluate(o);
-  if (evaluation.consistency && !o.plot.empty())
-    pictures::PlotConsistency(o.plot, ConsistencyText(*evaluation.consistency), *evaluation.consistency);
+  if (evaluation.consistency && !o.plot.empty()) {
+    const Utime begin = evaluation.truth.front().t;
+    pictures::PlotConsistency(o.plot, ConsistencyText(*evaluation.consistency), *evaluation.consistency,
+                              {begin, begin, evaluation.truth.back().t, "truth"});
+  }
   if (o.json) {
     PrintJson(o, evaluation);
   } else {

@@ -93,7 +93,8 @@ void DrawTrajectories(const std::string& path, const std::string& title, const T
   }
   const char* names[6] = {"x [m]", "y [m]", "z [m]", "roll [deg]", "pitch [deg]", "yaw [deg]"};
   for (int c = 0; c < 6; ++c) {
-    pictures::Chart chart{"", c % 3 == 2 ? "time [s]" : "", names[c], {}, false, false};
+    pictures::Chart chart{
+        "", c % 3 == 2 ? "time since the start of the truth [s]" : "", names[c], {}, false, false};
     const Band band = BandOf(true_curves.v[c]);
     chart.series.push_back({"", kTruth, true_curves.t, true_curves.v[c], true, kGap});
     for (std::size_t k = 0; k < curves.size(); ++k) {

@@ -66,6 +66,7 @@ Axes AxesOf(const Chart& chart, const cv::Rect& plot) {
     for (const double v : s.x) axes.x.Add(v);
     for (const double v : s.y) axes.y.Add(v);
   }
+  for (const double v : {chart.x_begin, chart.x_end}) axes.x.Add(v);
   axes.x.Pad();
   axes.y.Pad();
   if (chart.from_zero) axes.y.low = 0;
@@ -152,6 +153,13 @@ void Series::Break() {
   if (x.empty()) return;
   x.push_back(std::numeric_limits<double>::quiet_NaN());
   y.push_back(x.back());
+}
+
+void Chart::SetTime(const TimeAxis& time) {
+  x_label = time.Label();
+  if (time.end <= time.begin) return;
+  x_begin = time.At(time.begin);
+  x_end = time.At(time.end);
 }
 
 void Chart::Draw(cv::Mat* image, const cv::Rect& where) const {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <limits>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
+
+#include "tools/pictures/time_axis.h"
 
 namespace evit::pictures {
 
@@ -29,6 +32,11 @@ struct Chart {
   std::vector<Series> series;
   bool equal_axes = false;  // one metre is one metre both ways (top view)
   bool from_zero = false;   // the y axis begins at 0 (errors)
+  // What the x axis shows at least; NaN: what the series need.
+  double x_begin = std::numeric_limits<double>::quiet_NaN(), x_end = x_begin;
+
+  /// Makes the x axis that of time.
+  void SetTime(const TimeAxis& time);
 
   void Draw(cv::Mat* image, const cv::Rect& where) const;
 };

@@ -41,24 +41,24 @@ std::vector<std::string> Lines(const std::string& text) {
 }  // namespace
 
 void PlotConsistency(const std::string& path, const std::string& title, const Consistency& consistency,
-                     const std::vector<Utime>& breaks) {
+                     const TimeAxis& time, const std::vector<Utime>& breaks) {
   const std::vector<std::string> lines = Lines(title);
   const int top = 32 + kLine * static_cast<int>(lines.size());
   cv::Mat image(top + 1070, kWidth, CV_8UC3, cv::Scalar(255, 255, 255));
   for (std::size_t k = 0; k < lines.size(); ++k)
     DrawText(&image, lines[k], {kWidth / 2, 36 + kLine * static_cast<int>(k)}, kTitleSize, Anchor::kCenter);
   const auto& errors = consistency.errors;
-  const Utime t0 = errors.empty() ? 0 : errors.front().t;
   for (int k = 0; k < 6; ++k) {
     const double unit = k < 3 ? 100 : kDegreesPerRadian;
-    Chart chart{kNames[k], "time [s]", k < 3 ? "[cm]" : "[deg]", {}, false, false};
+    Chart chart{kNames[k], "", k < 3 ? "[cm]" : "[deg]", {}, false, false};
+    chart.SetTime(time);
     if (errors.empty()) chart.title += ": no ground truth";
     Series error{"error", kErrorColour, {}, {}, true, kLongestGap};
     Series above{"2 sigma", kBound, {}, {}, true, kLongestGap}, below{"", kBound, {}, {}, true, kLongestGap};
     for (const PoseError& row : errors) {
       if (std::binary_search(breaks.begin(), breaks.end(), row.t))
         for (Series* curve : {&error, &above, &below}) curve->Break();
-      error.x.push_back(ToSeconds(row.t - t0));
+      error.x.push_back(time.At(row.t));
       error.y.push_back(unit * row.error[k]);
       if (row.sigma[k] <= 0) continue;  // bootstrapping
       for (Series* bound : {&above, &below}) bound->x.push_back(error.x.back());

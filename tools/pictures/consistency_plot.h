@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/evaluation/consistency.h"
+#include "tools/pictures/time_axis.h"
 
 namespace evit::pictures {
 
@@ -11,6 +12,6 @@ namespace evit::pictures {
 /// there is no truth the charts say so. `breaks`: as in PlotRun. Writes a PNG; throws std::runtime_error
 /// naming the file.
 void PlotConsistency(const std::string& path, const std::string& title, const Consistency& consistency,
-                     const std::vector<Utime>& breaks = {});
+                     const TimeAxis& time, const std::vector<Utime>& breaks = {});
 
 }  // namespace evit::pictures

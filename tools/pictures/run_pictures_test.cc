@@ -12,6 +12,8 @@
 namespace evit::pictures {
 namespace {
 
+const TimeAxis kSecond{0, 0, kMicrosPerSecond};
+
 // A second along x, `beside` m off.
 Trajectory Straight(double beside = 0) {
   Trajectory line;
@@ -27,7 +29,7 @@ TEST(ConsistencyPlot, ShowsTheBoundsWhereTheRunIsScored) {
   for (const StampedPose& pose : estimate) covariances.push_back({pose.t, 1e-4 * Matrix6d::Identity()});
   const Consistency consistency = ConsistencyOf(truth, estimate, covariances);
   for (const bool scored : {true, false}) {
-    PlotConsistency(folder.File("plot.png"), "title", scored ? consistency : Consistency{});
+    PlotConsistency(folder.File("plot.png"), "title", scored ? consistency : Consistency{}, kSecond);
     const cv::Mat image = cv::imread(folder.File("plot.png"));
     EXPECT_GT(image.cols, 1000);
     cv::Mat bounds;
@@ -41,7 +43,7 @@ TEST(RunPlot, WithAndWithoutTruthOrPoses) {
   const Trajectory truth = Straight();
   for (const auto& [a, b] : {std::pair(truth, truth), std::pair(Trajectory(), truth),
                              std::pair(truth, Trajectory()), std::pair(Trajectory(), Trajectory())}) {
-    PlotRun(folder.File("plot.png"), "title", a, b);
+    PlotRun(folder.File("plot.png"), "title", a, b, kSecond);
     const cv::Mat image = cv::imread(folder.File("plot.png"));
     EXPECT_GT(image.cols, 1000);
     // Blue, the colour of the path and of z, shows where and only where there are poses.
@@ -51,13 +53,33 @@ TEST(RunPlot, WithAndWithoutTruthOrPoses) {
   }
 }
 
+// So that runs with and without a start pose line up, with truth and without.
+TEST(RunPlot, TimeZeroIsTheRecordingsStartWhateverTheFirstPose) {
+  const TemporaryFolder folder("run_plot");
+  const Trajectory whole = Straight(), late(whole.begin() + 50, whole.end());
+  // First and last column with blue in a chart over time.
+  const auto columns = [&](const Trajectory& truth, const Trajectory& estimate) {
+    PlotRun(folder.File("plot.png"), "title", truth, estimate, kSecond);
+    cv::Mat blue;
+    cv::inRange(cv::imread(folder.File("plot.png"))(cv::Rect(10, 100, 960, 270)), cv::Scalar(178, 114, 0),
+                cv::Scalar(178, 114, 0), blue);
+    const cv::Rect box = cv::boundingRect(blue);
+    return std::pair(box.x, box.x + box.width);
+  };
+  for (const Trajectory& truth : {whole, Trajectory()}) {
+    const auto of_whole = columns(truth, whole), of_late = columns(truth, late);
+    EXPECT_NEAR(of_late.first, 0.5 * (of_whole.first + of_whole.second), 25);  // a dash's gap may be there
+    EXPECT_NEAR(of_late.second, of_whole.second, 25);
+  }
+}
+
 // A gap of 0.2 s, shorter than those that break lines by themselves, neither over time nor from above.
 TEST(RunPlot, DrawsNoLineOverABreak) {
   const TemporaryFolder folder("run_plot");
   Trajectory estimate = Straight();
   estimate.erase(estimate.begin() + 41, estimate.begin() + 60);
   const auto ink = [&](const std::vector<Utime>& breaks, const cv::Rect& chart) {
-    PlotRun(folder.File("plot.png"), "title", Trajectory(), estimate, breaks);
+    PlotRun(folder.File("plot.png"), "title", Trajectory(), estimate, kSecond, breaks);
     cv::Mat blue;
     cv::inRange(cv::imread(folder.File("plot.png"))(chart), cv::Scalar(178, 114, 0), cv::Scalar(178, 114, 0),
                 blue);

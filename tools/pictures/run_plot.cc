@@ -22,34 +22,35 @@ bool IsBreak(const std::vector<Utime>& breaks, Utime t) {
 }
 
 struct PoseCharts {
-  Chart position{"position", "time [s]", "[m]", {}, false, false};
-  Chart rotation{"rotation since the start", "time [s]", "[deg]", {}, false, false};
+  Chart position{"position", "", "[m]", {}, false, false};
+  Chart rotation{"rotation since the first pose", "", "[deg]", {}, false, false};
   Chart top{"from above", "x [m]", "y [m]", {}, true, false};
 };
 
 // The axes of position and rotation, each as two lines, and the path from above.
-PoseCharts ChartPoses(const Trajectory& truth, const Trajectory& estimate, const std::vector<Utime>& breaks) {
-  const Trajectory& base = estimate.empty() ? truth : estimate;
-  const Utime t0 = base.empty() ? 0 : base.front().t;
+PoseCharts ChartPoses(const Trajectory& truth, const Trajectory& estimate, const TimeAxis& time,
+                      const std::vector<Utime>& breaks) {
+  // Of the truth, if there is one: then runs that find their first pose at different times are alike.
+  const Trajectory& base = truth.empty() ? estimate : truth;
   const Eigen::Quaterniond reference = base.empty() ? Eigen::Quaterniond::Identity() : base.front().pose.q;
   const auto add = [&](const StampedPose& s, int axis, Series* position, Series* rotation, Series* path) {
-    position->x.push_back(ToSeconds(s.t - t0));
-    rotation->x.push_back(ToSeconds(s.t - t0));
+    position->x.push_back(time.At(s.t));
+    rotation->x.push_back(time.At(s.t));
     position->y.push_back(s.pose.p[axis]);
     rotation->y.push_back(Turn(reference, s.pose.q)[axis]);
     if (axis == 0) path->x.push_back(s.pose.p.x()), path->y.push_back(s.pose.p.y());
   };
   PoseCharts charts;
+  charts.position.SetTime(time);
+  charts.rotation.SetTime(time);
+  if (!truth.empty()) charts.rotation.title += " of the truth";
   const char* axes[3] = {"x", "y", "z"};
   Series path_truth{"truth", kTruth, {}, {}, true, 0},
       path_estimate{"estimate", kSafeColors[2], {}, {}, true, 0};
   for (int axis = 0; axis < 3; ++axis) {
     Series p_truth{axis == 0 ? "truth" : "", kTruth, {}, {}, true, kLongestGap}, r_truth = p_truth;
     Series p{axes[axis], kSafeColors[axis], {}, {}, true, kLongestGap, kDashes[axis]}, r = p;
-    for (const StampedPose& s : truth) {
-      if (!estimate.empty() && (s.t < estimate.front().t || s.t > estimate.back().t)) continue;
-      add(s, axis, &p_truth, &r_truth, &path_truth);
-    }
+    for (const StampedPose& s : truth) add(s, axis, &p_truth, &r_truth, &path_truth);
     for (const StampedPose& s : estimate) {
       if (IsBreak(breaks, s.t)) p.Break(), r.Break();
       if (IsBreak(breaks, s.t) && axis == 0) path_estimate.Break();
@@ -63,21 +64,22 @@ PoseCharts ChartPoses(const Trajectory& truth, const Trajectory& estimate, const
 }
 
 struct ErrorCharts {
-  Chart position{"position error (map frame, no alignment)", "time [s]", "[cm]", {}, false, true};
-  Chart rotation{"orientation error", "time [s]", "[deg]", {}, false, true};
+  Chart position{"position error (map frame, no alignment)", "", "[cm]", {}, false, true};
+  Chart rotation{"orientation error", "", "[deg]", {}, false, true};
 };
 
-ErrorCharts ChartErrors(const Trajectory& truth, const Trajectory& estimate,
+ErrorCharts ChartErrors(const Trajectory& truth, const Trajectory& estimate, const TimeAxis& time,
                         const std::vector<Utime>& breaks) {
   ErrorCharts charts;
+  charts.position.SetTime(time);
+  charts.rotation.SetTime(time);
   Series position{"", kError, {}, {}, true, kLongestGap}, rotation = position;
   for (const StampedPose& s : estimate) {
     if (IsBreak(breaks, s.t)) position.Break(), rotation.Break();
     SE3 at;
     if (!PoseAt(truth, s.t, &at)) continue;
-    const double t = ToSeconds(s.t - estimate.front().t);
-    position.x.push_back(t);
-    rotation.x.push_back(t);
+    position.x.push_back(time.At(s.t));
+    rotation.x.push_back(time.At(s.t));
     position.y.push_back(100 * (s.pose.p - at.p).norm());
     rotation.y.push_back(kDegreesPerRadian * AngularDistance(s.pose.q, at.q));
   }
@@ -90,14 +92,14 @@ ErrorCharts ChartErrors(const Trajectory& truth, const Trajectory& estimate,
 }  // namespace
 
 void PlotRun(const std::string& path, const std::string& title, const Trajectory& truth,
-             const Trajectory& estimate, const std::vector<Utime>& breaks) {
+             const Trajectory& estimate, const TimeAxis& time, const std::vector<Utime>& breaks) {
   cv::Mat image(1130, 1500, CV_8UC3, cv::Scalar(255, 255, 255));
   DrawText(&image, title, {750, 40}, 0.8, Anchor::kCenter, {20, 20, 20}, 2);
-  const PoseCharts poses = ChartPoses(truth, estimate, breaks);
+  const PoseCharts poses = ChartPoses(truth, estimate, time, breaks);
   poses.position.Draw(&image, {10, 60, 960, 350});
   poses.rotation.Draw(&image, {10, 410, 960, 350});
   poses.top.Draw(&image, {980, 60, 510, 700});
-  const ErrorCharts errors = ChartErrors(truth, estimate, breaks);
+  const ErrorCharts errors = ChartErrors(truth, estimate, time, breaks);
   errors.position.Draw(&image, {10, 765, 740, 350});
   errors.rotation.Draw(&image, {755, 765, 735, 350});
   WritePicture(path, image);

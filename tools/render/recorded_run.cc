@@ -36,6 +36,11 @@ RecordedRun::RecordedRun(const std::string& path, const std::string& prefix) : l
                    [](const Place& a, const Place& b) { return a.utime < b.utime; });
 }
 
+std::int64_t RecordedRun::begin() const {
+  const std::int64_t window = windows_.front().utime;
+  return keyframes_.empty() ? window : std::min(window, keyframes_.front().utime);
+}
+
 std::size_t RecordedRun::WindowAt(std::int64_t t) const {
   const auto after =
       std::upper_bound(windows_.begin(), windows_.end(), t,

@@ -20,6 +20,8 @@ class RecordedRun {
 
   /// In the order of their stamps; each has a node.
   const std::vector<window_state_t>& windows() const { return windows_; }
+  /// us: the first keyframe, which is there before the first window; 0 of the film's time.
+  std::int64_t begin() const;
   /// Index of the last window at or before t (us); the first one where there is none.
   std::size_t WindowAt(std::int64_t t) const;
   /// The keyframe with this stamp; nothing where it was not recorded.

@@ -24,8 +24,9 @@ constexpr std::size_t kSamples = 6;  // pictures that the colours of a GIF are t
 
 // Stamps (us) of the pictures.
 std::vector<std::int64_t> Moments(const RecordedRun& run, const RenderOptions& o) {
-  const double begin = static_cast<double>(run.windows().front().utime);
-  double from = 0, to = 1e-6 * (static_cast<double>(run.windows().back().utime) - begin);
+  const auto begin = static_cast<double>(run.begin());
+  double from = 1e-6 * (static_cast<double>(run.windows().front().utime) - begin),
+         to = 1e-6 * (static_cast<double>(run.windows().back().utime) - begin);
   if (o.seconds) {
     from = std::max(from, o.seconds->first);
     to = std::min(to, o.seconds->second);

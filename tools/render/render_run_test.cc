@@ -95,6 +95,8 @@ TEST_F(RenderRunTest, OnlyTheChosenSecondsAreDrawn) {
   Record();
   options_.seconds = {0.5, 0.8};
   EXPECT_EQ(RenderRun(options_), 4);
+  options_.seconds = {0, 0.05};  // from the first keyframe, which is there before a window
+  EXPECT_EQ(RenderRun(options_), 1);
   options_.seconds = {5, 6};
   EXPECT_THAT(Failure(), HasSubstr("not in it"));
 }

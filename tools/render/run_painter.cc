@@ -60,7 +60,7 @@ cv::Mat RunPainter::Paint(std::int64_t t) {
   cv::Mat picture(options_.size, CV_8UC3, theme_.back);
   const std::size_t now = run_->WindowAt(t);
   const window_state_t& window = run_->windows()[now];
-  const double seconds = 1e-6 * static_cast<double>(t - run_->windows().front().utime);
+  const double seconds = 1e-6 * static_cast<double>(t - run_->begin());
   PaintMap(now, (options_.turn_deg + options_.turn_deg_per_s * seconds) / kDegreesPerRadian, &picture);
   PaintSurface(window, &picture);
   const int half = curves_place_.height / 2;
@@ -151,8 +151,8 @@ void RunPainter::PaintText(const window_state_t& window, cv::Mat* picture) const
   std::snprintf(text, sizeof text, "%s", kModes[window.mode]);
   pictures::DrawText(picture, text, {line / 2, line}, 1.4 * size, pictures::Anchor::kLeft, theme_.accent, 2);
   std::snprintf(text, sizeof text, "%.1f s   %.0f %% of %d points on edges",
-                1e-6 * static_cast<double>(window.utime - run_->windows().front().utime),
-                100 * window.inlier_share, window.n_points);
+                1e-6 * static_cast<double>(window.utime - run_->begin()), 100 * window.inlier_share,
+                window.n_points);
   pictures::DrawText(picture, text, {line / 2, options_.size.height - line / 2}, size,
                      pictures::Anchor::kLeft, theme_.ink);
 }

@@ -104,7 +104,7 @@ LogSpan ReadLogSpan(const RunJob& job) {
   }
   const Utime imu_begin = Stream::TimeOf<imu_batch_t>(log, imu.first, kNever);
   const Utime events_begin = Stream::TimeOf<event_packet_t>(log, events.first, kNever);
-  span.begin = std::min(imu_begin, events_begin);
+  span.begin = span.log_begin = std::min(imu_begin, events_begin);
   span.end = Stream::TimeOf<imu_batch_t>(log, imu.last, -1);
   RequireOneClock(job, events_begin, Stream::TimeOf<event_packet_t>(log, events.last, -1), imu_begin,
                   span.end);

@@ -13,6 +13,7 @@ namespace evit::run {
 
 /// What the log of a run holds, of the part that is to be played.
 struct LogSpan {
+  Utime log_begin = 0;       // sensor time, of the whole log
   Utime begin = 0, end = 0;  // sensor time
   std::int64_t n_events = 0;
   std::string prefix;           // of the log's channels

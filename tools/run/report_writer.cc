@@ -36,15 +36,14 @@ const char* ModeName(int mode) {
 
 }  // namespace
 
-void FillFromRecorder(const Recorder& recorder, report::Report* report) {
+void FillFromRecorder(const Recorder& recorder, Utime log_begin, report::Report* report) {
   report->set_keyframes(static_cast<std::int32_t>(recorder.n_keyframes()));
   report->set_poses(static_cast<std::int32_t>(recorder.online().size()));
   report->set_final_mode(recorder.n_keyframes() > 0 ? ModeName(recorder.mode().mode) : "no keyframe");
   report->set_mean_solve_ms(recorder.mean_solve_ms());
-  const Utime first = recorder.mode_changes().empty() ? 0 : recorder.mode_changes().front().t;
   for (const Recorder::ModeChange& change : recorder.mode_changes()) {
     report::ModeChange* out = report->add_mode_changes();
-    out->set_seconds(ToSeconds(change.t - first));
+    out->set_seconds(ToSeconds(change.t - log_begin));
     out->set_mode(ModeName(change.mode));
     out->set_reason(change.reason);
     out->set_utime(static_cast<double>(change.t));

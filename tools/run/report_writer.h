@@ -8,8 +8,9 @@
 
 namespace evit::run {
 
-/// Adds what the recorder heard: keyframes, modes, services' counters and stages.
-void FillFromRecorder(const Recorder& recorder, report::Report* report);
+/// Adds what the recorder heard: keyframes, modes (their seconds since `log_begin`, us), services' counters
+/// and stages.
+void FillFromRecorder(const Recorder& recorder, Utime log_begin, report::Report* report);
 
 /// Adds ATE in the three alignments and the milestones.
 void FillErrors(const Trajectory& truth, const Trajectory& estimate, report::Report* report);

@@ -92,6 +92,7 @@ RunInputs PrepareRun(const RunJob& job) {
   if (!job.photometric_map.empty()) LoadPhotometricMap(job.photometric_map);
   const LogSpan span = ReadLogSpan(job);
   CheckSensor(job, span, camera);
+  inputs.log_begin = span.log_begin;
   inputs.begin = span.begin;
   inputs.end = span.end;
   inputs.n_events = span.n_events;

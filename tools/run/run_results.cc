@@ -101,7 +101,7 @@ report::Report MakeReport(const RunJob& job, const RunInputs& inputs, const Reco
     service->set_cpu_s(process->cpu_seconds());
     service->set_peak_memory_mb(process->peak_mb());
   }
-  FillFromRecorder(recorder, &report);
+  FillFromRecorder(recorder, inputs.log_begin, &report);
   report.set_sequence_s(PlayedSeconds(inputs, recorder, outcome));
   FillTrackedTime(recorder.online(), job.play.loops, &report);
   FillRates(pipeline, outcome, &report);
@@ -129,11 +129,12 @@ int WriteResults(const RunJob& job, const RunInputs& inputs, const Recorder& rec
   WriteReport(job.out + "/report.json", report);
   const std::string title = RunTitle(job, report, online);
   const std::vector<Utime> breaks = BreaksOf(online, job.play.loops, report);
-  bool drawn =
-      Draw([&] { pictures::PlotRun(job.out + "/trajectory.png", title, inputs.truth, online, breaks); });
+  const pictures::TimeAxis time{inputs.log_begin, inputs.begin, inputs.end};
+  bool drawn = Draw(
+      [&] { pictures::PlotRun(job.out + "/trajectory.png", title, inputs.truth, online, time, breaks); });
   if (!consistency.errors.empty()) {
     drawn &= Draw([&] {
-      pictures::PlotConsistency(job.out + "/consistency.png", ConsistencyText(consistency), consistency,
+      pictures::PlotConsistency(job.out + "/consistency.png", ConsistencyText(consistency), consistency, time,
                                 breaks);
     });
   }
