@@ -1,17 +1,24 @@
 #include "common/localization/place_index_file.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "common/files/content_hash.h"
 #include "common/files/whole_file.h"
+#include "common/text/format_text.h"
 
 namespace evit {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::uint64_t kVersion = 4;  // of the file, and of what an index holds: another one is made again
 constexpr char kMagic[8] = {'E', 'V', 'I', 'T', 'P', 'L', 'A', 'C'};
@@ -38,6 +45,18 @@ bool ReadAll(std::ifstream* file, std::size_t count, std::vector<Item>* items) {
   items->resize(count);
   file->read(reinterpret_cast<char*>(items->data()), static_cast<std::streamsize>(count * sizeof(Item)));
   return static_cast<bool>(*file);
+}
+
+// Of this user, for EVIT. Empty: there is none.
+fs::path CacheFolder() {
+  const auto named = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && *value == '/' ? fs::path(value) : fs::path();
+  };
+  if (const fs::path folder = named("CACHE_DIRECTORY"); !folder.empty()) return folder;
+  if (const fs::path folder = named("XDG_CACHE_HOME"); !folder.empty()) return folder / "evit";
+  const fs::path home = named("HOME");
+  return home.empty() ? home : home / ".cache" / "evit";
 }
 
 }  // namespace
@@ -102,22 +121,48 @@ bool WritePlaceIndex(const std::string& path, std::uint64_t fingerprint, const P
   return true;
 }
 
-PlaceIndex ReadOrMakePlaceIndex(const std::string& path, const PointMap& map,
+PlaceIndex ReadOrMakePlaceIndex(const std::vector<std::string>& paths, const PointMap& map,
                                 const PlaceIndexOptions& options, const std::function<void(double)>& progress,
                                 bool* read) {
   const std::uint64_t fingerprint = FingerprintOf(map, options);
   if (read != nullptr) *read = false;
-  if (!path.empty()) {
-    if (std::optional<PlaceIndex> kept = ReadPlaceIndex(path, fingerprint)) {
-      if (read != nullptr) *read = true;
-      return std::move(*kept);
-    }
+  for (const std::string& path : paths) {
+    std::optional<PlaceIndex> kept = ReadPlaceIndex(path, fingerprint);
+    if (!kept) continue;
+    if (read != nullptr) *read = true;
+    return std::move(*kept);
   }
   PlaceIndex made(map, options, progress);
-  if (!path.empty()) WritePlaceIndex(path, fingerprint, made);
+  for (const std::string& path : paths) {
+    std::error_code ignored;
+    if (path != paths.front()) fs::create_directories(fs::path(path).parent_path(), ignored);
+    if (WritePlaceIndex(path, fingerprint, made)) break;
+  }
   return made;
 }
 
-std::string PlaceIndexPath(const std::string& map) { return map + ".places"; }
+std::vector<std::string> PlaceIndexPaths(const std::string& map) {
+  if (map.empty()) return {};
+  std::vector<std::string> paths{map + ".places"};
+  std::error_code error;
+  const fs::path whole = fs::absolute(map, error), cache = CacheFolder();
+  if (error || cache.empty()) return paths;
+  ContentHash hash;
+  hash.Add(whole.c_str(), whole.native().size());
+  char name[32];
+  std::snprintf(name, sizeof name, ".%016llx.places", static_cast<unsigned long long>(hash.value()));
+  paths.push_back((cache / (whole.filename().string() + name)).string());
+  return paths;
+}
+
+std::string KeptPlaceIndexText(const std::string& map) {
+  for (const std::string& path : PlaceIndexPaths(map)) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(path, error);
+    if (!error)
+      return FormatText("%s (%.1f MB; may be deleted)", path.c_str(), 1e-6 * static_cast<double>(size));
+  }
+  return "";
+}
 
 }  // namespace evit

@@ -18,7 +18,7 @@ class PlaceIndexFileTest : public ::testing::Test {
   PlaceIndexFileTest() {
     char name[] = "/tmp/evit_places_XXXXXX";
     folder_ = mkdtemp(name);
-    path_ = PlaceIndexPath(folder_ / "map.pcd");
+    path_ = PlaceIndexPaths(folder_ / "map.pcd").front();
     const PointMap room = synthetic::WalledRoom(1);
     for (std::size_t k = 0; k < room.points.size(); k += 8) map_.points.push_back(room.points[k]);
     options_.grid.max_places = 200;
@@ -31,7 +31,8 @@ class PlaceIndexFileTest : public ::testing::Test {
   // Whether it was read.
   bool Load(PlaceIndex* index = nullptr) {
     bool read = false;
-    PlaceIndex loaded = ReadOrMakePlaceIndex(path_, map_, options_, nullptr, &read);
+    PlaceIndex loaded = ReadOrMakePlaceIndex(paths_.empty() ? std::vector<std::string>{path_} : paths_, map_,
+                                             options_, nullptr, &read);
     EXPECT_FALSE(loaded.places().empty());
     if (index != nullptr) *index = std::move(loaded);
     return read;
@@ -39,6 +40,7 @@ class PlaceIndexFileTest : public ::testing::Test {
 
   fs::path folder_;
   std::string path_;
+  std::vector<std::string> paths_;  // empty: path_ alone
   PointMap map_;
   PlaceIndexOptions options_;
 };
@@ -91,8 +93,23 @@ TEST_F(PlaceIndexFileTest, WhereItCannotBeKeptItIsMadeEachTime) {
   path_ = folder_ / "none" / "map.pcd.places";
   EXPECT_FALSE(Load());
   EXPECT_FALSE(Load());
-  path_.clear();
+  bool read = false;
+  ReadOrMakePlaceIndex({}, map_, options_, nullptr, &read);
+  EXPECT_FALSE(read);
+}
+
+TEST_F(PlaceIndexFileTest, WhereTheMapsFolderCannotBeWrittenItIsKeptInTheCache) {
+  setenv("CACHE_DIRECTORY", (folder_ / "cache" / "evit").c_str(), 1);
+  paths_ = PlaceIndexPaths("/proc/map.pcd");  // nobody can write there
+  ASSERT_EQ(paths_.size(), 2U);
+  EXPECT_EQ(fs::path(paths_[1]).parent_path(), folder_ / "cache" / "evit");
+  EXPECT_NE(paths_[1], PlaceIndexPaths("/sys/map.pcd")[1]);
+  EXPECT_EQ(KeptPlaceIndexText("/proc/map.pcd"), "");
   EXPECT_FALSE(Load());
+  EXPECT_TRUE(Load());
+  EXPECT_TRUE(fs::exists(paths_[1]));
+  EXPECT_EQ(KeptPlaceIndexText("/proc/map.pcd").rfind(paths_[1] + " (", 0), 0U);
+  unsetenv("CACHE_DIRECTORY");
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ int Main(int argc, char** argv) {
   line.AddFlag(
       "--places", &places,
       "Make ready to say where in the map a keyframe was seen now, and not at the first question; kept "
-      "beside the map, as MAP.places, where that folder can be written");
+      "beside the map, as MAP.places (some 25 MB; may be deleted), or in the user's cache folder where the "
+      "map's cannot be written");
   evit::AddServiceOptions(&line, &options, false);
   if (const auto code = line.Parse(argc, argv)) return *code;
   if (path.empty() && photometric_path.empty()) return line.Missing("--map or --photometric-map");
@@ -64,7 +65,7 @@ int Main(int argc, char** argv) {
   evit::MapServer service(bus.get(), evit::Channels(options.prefix), evit::MapIndex(std::move(loaded.map)),
                           description);
   if (photometric) service.ServeViews(*photometric);
-  if (!path.empty()) service.KeepPlacesIn(evit::PlaceIndexPath(path));
+  if (!path.empty()) service.KeepPlacesIn(evit::PlaceIndexPaths(path));
   if (places) service.PreparePlaces();
   photometric.reset();
   return evit::RunService(&service, bus.get());

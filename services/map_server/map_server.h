@@ -28,8 +28,8 @@ class MapServer : public Service {
   /// Draws views of this map too: VIEW_QUERY in, MAP_VIEW out.
   void ServeViews(const PhotometricMap& map) { views_.emplace(bus_, channels_, &status_, map); }
 
-  /// The index of places for PLACE_QUERY is kept in this file from one run to the next.
-  void KeepPlacesIn(const std::string& path) { places_.KeepIn(path); }
+  /// The index of places for PLACE_QUERY is kept in one of these files from one run to the next.
+  void KeepPlacesIn(const std::vector<std::string>& paths) { places_.KeepIn(paths); }
   /// Builds the index of places now instead of at the first PLACE_QUERY.
   void PreparePlaces() { places_.Prepare(); }
 

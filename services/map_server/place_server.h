@@ -28,8 +28,8 @@ class PlaceServer {
 
   /// Begins to make the index, or to read it.
   void Prepare();
-  /// Where the index is kept (PlaceIndexPath). Before Prepare() and the first Tick().
-  void KeepIn(const std::string& path) { worker_.KeepIn(path); }
+  /// Where the index is kept (PlaceIndexPaths). Before Prepare() and the first Tick().
+  void KeepIn(const std::vector<std::string>& paths) { worker_.KeepIn(paths); }
   /// Sends what is answered and begins with what is asked; if questions back up, the newest only.
   void Tick();
   bool busy() const { return worker_.busy(); }

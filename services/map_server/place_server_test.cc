@@ -107,13 +107,13 @@ TEST_F(PlaceServerTest, AnswersOnceAndAgainWhereTheAnswerWasLost) {
 TEST_F(PlaceServerTest, TheIndexIsKeptFromOneRunToTheNext) {
   const std::string path = ::testing::TempDir() + std::to_string(getpid()) + "corner.pcd.places";
   std::filesystem::remove(path);
-  server_.KeepPlacesIn(path);
+  server_.KeepPlacesIn({path});
   Send(Query(1));
   WaitFor(1);
   EXPECT_EQ(Counter("places.read"), 0);
   const std::unique_ptr<Bus> bus = OpenMemoryBus(hub_);
   MapServer again(bus.get(), Channels(), MapIndex(Corner()), "a corner");
-  again.KeepPlacesIn(path);
+  again.KeepPlacesIn({path});
   again.PreparePlaces();
   counters_.clear();
   for (int k = 0; k < 60'000 && counters_.count("places.read") == 0; ++k) {

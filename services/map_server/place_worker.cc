@@ -29,7 +29,7 @@ void PlaceWorker::MakeIndex() {
     if (stopping_) throw std::runtime_error("stopped");
   };
   index_ = std::make_unique<const PlaceIndex>(
-      ReadOrMakePlaceIndex(path_, map_->map(), PlaceIndexOptions(), progress, &index_read_));
+      ReadOrMakePlaceIndex(paths_, map_->map(), PlaceIndexOptions(), progress, &index_read_));
   prepared_ = 1;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/localization/place_index.h"
 #include "common/map/map_index.h"
@@ -24,8 +25,8 @@ class PlaceWorker {
   PlaceWorker(const PlaceWorker&) = delete;
   PlaceWorker& operator=(const PlaceWorker&) = delete;
 
-  /// Where the index is kept (PlaceIndexPath). Before the first Begin().
-  void KeepIn(const std::string& path) { path_ = path; }
+  /// Where the index is kept (PlaceIndexPaths). Before the first Begin().
+  void KeepIn(const std::vector<std::string>& paths) { paths_ = paths; }
   /// Not while busy. Without a question only the index is made.
   void Begin(std::optional<place_query_t> question);
   bool busy() const { return work_.valid(); }
@@ -44,7 +45,7 @@ class PlaceWorker {
   void MakeIndex();
 
   const MapIndex* map_;
-  std::string path_;                         // empty: not kept
+  std::vector<std::string> paths_;           // none: not kept
   std::unique_ptr<const PlaceIndex> index_;  // the thread's, while it works
   bool index_read_ = false;                  // the thread's, too
   std::atomic<double> prepared_{0};

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -120,10 +119,10 @@ int Locate(const LocateOptions& o) {
   const int threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 4);
   const locate::RecordedStreams streams(o.log);
   const locate::PreparedMap map = locate::PrepareMap(o.map, threads);
-  const std::string kept = PlaceIndexPath(o.map);
+  const std::string kept = KeptPlaceIndexText(o.map);
   std::printf("%zu places, %.1f MB%s\n", map.places->places().size(),
               1e-6 * static_cast<double>(map.places->MemoryBytes()),
-              std::filesystem::exists(kept) ? (", kept for the next time in " + kept).c_str() : "");
+              kept.empty() ? "" : (", kept for the next time in " + kept).c_str());
   std::fflush(stdout);
   const PlaceFinderOptions finder = LeaveOut(o.without, threads, &locating.search);
   const auto run = [&](Utime begin) {

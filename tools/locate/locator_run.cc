@@ -76,7 +76,7 @@ PreparedMap PrepareMap(const std::string& path, int threads) {
   {
     terminal::ProgressBar bar("preparing");
     prepared.places = std::make_unique<PlaceIndex>(ReadOrMakePlaceIndex(
-        PlaceIndexPath(path), loaded.map, options, [&](double share) { bar.Show(share, path); }));
+        PlaceIndexPaths(path), loaded.map, options, [&](double share) { bar.Show(share, path); }));
     bar.Show(1, path);
   }
   prepared.map = std::make_unique<MapIndex>(std::move(loaded.map));

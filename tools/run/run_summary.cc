@@ -111,8 +111,8 @@ void PrintSummary(const RunJob& job, const RunInputs& inputs, const report::Repo
                 static_cast<long long>(inputs.lost_bytes));
   std::printf("results: %s/{trajectory.tum,smoothed.tum,covariance.csv,report.json,trajectory.png%s}\n",
               job.out.c_str(), scored ? ",consistency.png" : "");
-  const std::string places = PlaceIndexPath(job.map);
-  if (!inputs.start && std::filesystem::exists(places))
+  const std::string places = inputs.start ? "" : KeptPlaceIndexText(job.map);
+  if (!places.empty())
     std::printf("the map's places, kept for the next start without a pose: %s\n", places.c_str());
   std::fflush(stdout);
 }
