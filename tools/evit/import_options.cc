@@ -11,6 +11,7 @@
 #include "tools/evit/interruptible.h"
 #include "tools/evit/options.h"
 #include "tools/evit/output_names.h"
+#include "tools/formats/import/import_doubts.h"
 
 namespace evit::commands {
 namespace {
@@ -79,6 +80,7 @@ void RunImport(const std::string& label, const formats::ImportTarget& target, co
     std::printf(
         "only %.6f s long: if it is longer, name the unit of its stamps in the head (t_ms, t_us, t_ns)\n",
         s.seconds);
+  for (const std::string& doubt : formats::DoubtsOf(s)) std::fprintf(stderr, "warning: %s\n", doubt.c_str());
   if (s.n_truth == 0) std::printf("no ground truth (%s): runs on it cannot be scored\n", no_truth.c_str());
 }
 

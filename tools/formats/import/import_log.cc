@@ -149,6 +149,11 @@ ImportSummary Import::Summary(std::int64_t n_packets) const {
   summary.first_event = std::max(first_, begin_);
   summary.last_event = last_;
   summary.imu_rate_hz = Rate(streams_.imu);
+  if (has_imu()) {
+    const Utime first = std::max(begin_, streams_.imu.front().t),
+                last = std::min(last_, streams_.imu.back().t);
+    summary.imu_covers_s = std::max(0.0, ToSeconds(last - first));
+  }
   summary.dropped_events = events_.dropped();
   summary.dropped_imu = streams_.dropped_imu;
   summary.dropped_truth = streams_.dropped_truth;

@@ -36,7 +36,8 @@ struct ImportSummary {
   double seconds = 0;
   Utime first_event = 0, last_event = 0;  // stamps
   double imu_rate_hz = 0;
-  Utime imu_offset = 0;  // us that were added to IMU stamps
+  double imu_covers_s = 0;  // of the events' time
+  Utime imu_offset = 0;     // us that were added to IMU stamps
   DropCounts dropped_events, dropped_imu, dropped_truth;
 };
 
