@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "common/calibration/camera_pose_factor.h"
-#include "common/calibration/extrinsic_prior_factor.h"
+#include "common/calibration/rig_prior_factor.h"
 #include "common/tracking/ceres_factors.h"
 #include "common/tracking/pose_manifold.h"
 
@@ -113,16 +113,11 @@ void CameraImuBatch::AddPriors(const CameraImuPrior& prior, Unknowns* unknowns, 
   bias.information.diagonal().segment<3>(12).setConstant(std::pow(prior.accel_bias_sigma, -2));
   problem->AddResidualBlock(new PriorFactor(bias), nullptr, states_[0].pose.data(), states_[0].motion.data());
   problem->AddResidualBlock(
-      new ExtrinsicPriorFactor(prior.T_body_camera, prior.position_information, prior.rotation_information),
-      nullptr, unknowns->extrinsic.data());
-  const ceres::Matrix tilt_weight = ceres::Matrix::Identity(2, 2) / prior.tilt_sigma,
-                      offset_weight = ceres::Matrix::Identity(1, 1) / prior.offset_sigma;
+      new RigPriorFactor(prior.T_body_camera, ToSeconds(prior.offset - values_.offset), prior.information),
+      nullptr, unknowns->extrinsic.data(), &unknowns->late);
+  const ceres::Matrix tilt_weight = ceres::Matrix::Identity(2, 2) / prior.tilt_sigma;
   problem->AddResidualBlock(new ceres::NormalPrior(tilt_weight, ceres::Vector::Zero(2)), nullptr,
                             unknowns->tilt.data());
-  problem->AddResidualBlock(
-      new ceres::NormalPrior(offset_weight,
-                             ceres::Vector::Constant(1, ToSeconds(prior.offset - values_.offset))),
-      nullptr, &unknowns->late);
 }
 
 bool CameraImuBatch::ComputeCovariance(Unknowns* unknowns, ceres::Problem* problem) {

@@ -6,6 +6,7 @@
 
 #include "common/calibration/imu_track.h"
 #include "common/calibration/pose_noise.h"
+#include "common/calibration/rig_prior.h"
 #include "common/evaluation/trajectory.h"
 #include "common/geometry/rig.h"
 #include "common/imu/preintegration.h"
@@ -33,12 +34,11 @@ using CameraImuCovariance = Eigen::Matrix<double, 15, 15>;
 /// What is known before: Gaussians around the rig file's figures.
 struct CameraImuPrior {
   SE3 T_body_camera;
-  Utime offset = 0;                                            // us
-  Eigen::Matrix3d position_information, rotation_information;  // 1/m^2, body frame; 1/rad^2, camera frame
-  double offset_sigma = 0.1;                                   // s
-  double tilt_sigma = 0.2;                                     // rad
-  double gyro_bias_sigma = 0.1;                                // rad/s
-  double accel_bias_sigma = 0.1;                               // m/s^2: a sensor calibrated once
+  Utime offset = 0;                               // us
+  RigMatrix information = RigMatrix::Identity();  // of both: m, rad, s
+  double tilt_sigma = 0.2;                        // rad
+  double gyro_bias_sigma = 0.1;                   // rad/s
+  double accel_bias_sigma = 0.1;                  // m/s^2: a sensor calibrated once
 };
 
 /// Least squares over a recording: a chain of body states at the instants of the camera's poses, joined by

@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "common/calibration/rate_alignment.h"
@@ -14,16 +13,16 @@ namespace {
 constexpr Utime kMaxOffset = 100'000, kMaxImuGap = 50'000;  // us
 constexpr Utime kShortestStep = 10'000;                     // us between poses: two samples of a 200 Hz IMU
 constexpr std::size_t kMostPoses = 3000, kFewestPoses = 100;
-constexpr double kShortest = 3;        // s
-constexpr double kImuNoiseFactor = 2;  // as in tracking: integration error and vibration
-constexpr double kOutlier = 5;         // sigmas of one axis
-constexpr double kHold = 1e-6;         // m, rad, s: sigma of what is held at the rig file's figure
+constexpr double kShortest = 3;             // s
+constexpr double kImuNoiseFactor = 2;       // as in tracking: integration error and vibration
+constexpr double kRegistration = 0.5;       // px, as OverlapCalibrationOptions::registration_px
+constexpr double kAlike = 0.7, kDepth = 1;  // s, m: of the scene
+constexpr double kMostLag = 0.1;            // s
+constexpr double kHold = 1e6;               // times the prior's information
+constexpr double kOutlier = 5;              // sigmas of one axis
 // Standard deviations above which a value counts as not observable.
-constexpr double kMaxTranslation = 0.015, kMaxRotation = 0.007, kMaxOffsetSigma = 1e-3;  // m, rad, s
-constexpr double kMaxGyroBias = 0.01, kMaxAccelBias = 0.05, kMaxTilt = 0.005;            // rad/s, m/s^2, rad
+constexpr double kMaxGyroBias = 0.01, kMaxAccelBias = 0.05, kMaxTilt = 0.005;  // rad/s, m/s^2, rad
 constexpr PoseNoise kStiff{0.03, 0.01, 1, 1};  // poses that count so little that the IMU shapes the motion
-// What a rig file's figures may be off by.
-constexpr double kTranslationPrior = 0.2, kRotationPrior = 0.2;  // m, rad
 
 Trajectory Thin(const Trajectory& camera, const ImuTrack& imu) {
   Trajectory covered;
@@ -67,10 +66,6 @@ void FindUnobservable(const Eigen::Matrix3d& covariance, double largest, Unobser
 std::vector<Unobservable> FindUnobservable(const CameraImuCovariance& P) {
   std::vector<Unobservable> out;
   using Value = Unobservable::Value;
-  FindUnobservable(P.block<3, 3>(0, 0), kMaxTranslation, Value::kTranslation, &out);
-  FindUnobservable(P.block<3, 3>(3, 3), kMaxRotation, Value::kRotation, &out);
-  const double offset = std::sqrt(P(6, 6));
-  if (offset > kMaxOffsetSigma) out.push_back({Value::kTimeOffset, Eigen::Vector3d::Zero(), offset});
   Eigen::Matrix3d tilt = Eigen::Matrix3d::Zero();
   tilt.topLeftCorner<2, 2>() = P.block<2, 2>(7, 7);
   FindUnobservable(tilt, kMaxTilt, Value::kTilt, &out);
@@ -79,23 +74,39 @@ std::vector<Unobservable> FindUnobservable(const CameraImuCovariance& P) {
   return out;
 }
 
-// Adds what holds the rig file's figures in these directions; false where there is nothing to hold.
-bool Hold(const std::vector<Unobservable>& unobservable, CameraImuPrior* prior) {
-  bool any = false;
-  for (const Unobservable& u : unobservable) {
-    const Eigen::Matrix3d hold = u.direction * u.direction.transpose() / (kHold * kHold);
-    if (u.value == Unobservable::Value::kTranslation) {
-      prior->position_information += hold;
-    } else if (u.value == Unobservable::Value::kRotation) {
-      prior->rotation_information += hold;
-    } else if (u.value == Unobservable::Value::kTimeOffset) {
-      prior->offset_sigma = kHold;
-    } else {
-      continue;  // the rig file has no such figure
-    }
-    any = true;
-  }
-  return any;
+RigVector Moved(const SE3& from, const CameraImuValues& to) {
+  RigVector moved;
+  moved << to.T_body_camera.p - from.p, LogSO3(from.q.conjugate() * to.T_body_camera.q), ToSeconds(to.offset);
+  return moved;
+}
+
+// Covariance of all values where the rig's are not those of the solution, whose is P, but known to `rig`. The
+// others lean on the extrinsics.
+CameraImuCovariance WithRig(const CameraImuCovariance& P, const RigMatrix& rig) {
+  const Eigen::Matrix<double, 8, 6> lean =
+      P.topLeftCorner<6, 6>().ldlt().solve(P.topRightCorner<6, 8>()).transpose();
+  Eigen::Matrix<double, 15, 7> by_rig = Eigen::Matrix<double, 15, 7>::Zero();
+  by_rig << RigMatrix::Identity(), lean, Eigen::Matrix<double, 8, 1>::Zero();
+  CameraImuCovariance out = by_rig * rig * by_rig.transpose();
+  out.bottomRightCorner<8, 8>() += P.bottomRightCorner<8, 8>() - lean * P.topRightCorner<6, 8>();
+  return out;
+}
+
+// Seconds by which poses lag behind, or run ahead, where they stand off by kRegistration along the motion.
+double LagSigma(const RateAlignment& rates, const Camera& camera) {
+  return std::min(kMostLag, kRegistration / camera.fx / std::max(rates.spread.norm(), 1e-3));
+}
+
+// Errors of the poses that are alike over kAlike hardly show in a short recording: the chain bends to them.
+// Of half a pixel there are always some.
+PoseNoise AtLeast(PoseNoise noise, double step, const Camera& camera) {
+  const double rotation = kRegistration / camera.fx, position = rotation * kDepth,
+               n = std::max(1.0, kAlike / step);
+  noise.position_correlation =
+      std::max(noise.position_correlation, n * std::pow(position / noise.position, 2));
+  noise.rotation_correlation =
+      std::max(noise.rotation_correlation, n * std::pow(rotation / noise.rotation, 2));
+  return noise;
 }
 
 CameraImuCalibration Failed(CameraImuCalibration result, const char* reason) {
@@ -126,9 +137,11 @@ CameraImuCalibration CalibrateCameraImu(const Trajectory& camera, const std::vec
 
   CameraImuPrior prior;
   prior.T_body_camera = rig.T_body_camera;
-  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  prior.position_information = I / (kTranslationPrior * kTranslationPrior);
-  prior.rotation_information = I / (kRotationPrior * kRotationPrior);
+  result.prior_sigma = RigPriorSigma(rig);
+  const double lag_sigma = LagSigma(rates, rig.camera);
+  RigVector sigma = result.prior_sigma;
+  sigma[6] = std::hypot(sigma[6], lag_sigma);
+  prior.information = sigma.array().square().inverse().matrix().asDiagonal();
 
   CameraImuBatch batch(poses, &track, rig, kImuNoiseFactor, Start(rates, rig));
   constexpr const char* kDiverged = "the batch did not converge: do map, rig and log belong together?";
@@ -137,18 +150,25 @@ CameraImuCalibration CalibrateCameraImu(const Trajectory& camera, const std::vec
   if (batch.size() < kFewestPoses) return Failed(result, "too few poses of the camera fit the IMU");
   // Errors of the poses that wander slowly bend the chain instead of showing, unless it is stiff.
   if (!batch.Solve(prior, kStiff, false)) return Failed(result, kDiverged);
-  result.noise = batch.MeasureNoise();
+  result.noise =
+      AtLeast(batch.MeasureNoise(), result.seconds / static_cast<double>(batch.size()), rig.camera);
   if (result.noise.position > 0.05 || result.noise.rotation > 0.05) {
     return Failed(result, "the camera's poses and the IMU do not fit: do map, rig and log belong together?");
   }
   if (!batch.Solve(prior, result.noise, false)) return Failed(result, kDiverged);
-  result.covariance = batch.covariance();
-  result.unobservable = FindUnobservable(result.covariance);
-  if (Hold(result.unobservable, &prior) && !batch.Solve(prior, result.noise, false))
-    return Failed(result, kDiverged);
+  result.unobservable = FindUnobservable(batch.covariance());
+  result.rig = UpdateRig(result.prior_sigma, lag_sigma, Moved(rig.T_body_camera, batch.values()),
+                         batch.covariance().topLeftCorner<7, 7>());
+  result.covariance = WithRig(batch.covariance(), result.rig.covariance);
+  // Tilt and biases lean on the extrinsics: once more, with those that are written.
+  prior.T_body_camera.p += result.rig.change.head<3>();
+  prior.T_body_camera.q = prior.T_body_camera.q * ExpSO3(result.rig.change.segment<3>(3));
+  prior.information.topLeftCorner<6, 6>() *= kHold;
+  if (!batch.Solve(prior, result.noise, false)) return Failed(result, kDiverged);
   result.n_poses = static_cast<int>(batch.size());
   result.values = batch.values();
-  result.values.offset += rig.camera_time_offset;
+  result.values.T_body_camera = prior.T_body_camera;
+  result.values.offset = rig.camera_time_offset + std::llround(1e6 * result.rig.change[6]);
   result.success = true;
   return result;
 }

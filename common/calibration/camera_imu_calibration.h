@@ -21,9 +21,11 @@ struct CameraImuCalibration {
   bool success = false;
   std::string reason;  // for a person, where it failed
   CameraImuValues values;
-  /// Before unobservable values are held: a held figure may be wrong, and others lean on it.
+  /// Of the rig file's figures and the recording together. What was not learned is known as before.
   CameraImuCovariance covariance = CameraImuCovariance::Zero();
-  std::vector<Unobservable> unobservable;
+  RigVector prior_sigma = RigVector::Zero();          // of the rig file's figures
+  RigUpdate rig;                                      // what the recording adds to them
+  std::vector<Unobservable> unobservable;             // of what no rig file holds: biases, tilt
   PoseNoise noise;                                    // of the camera's poses
   int n_poses = 0;                                    // used
   int n_rejected = 0;                                 // far off
@@ -35,10 +37,11 @@ struct CameraImuCalibration {
 /// camera's poses in the map (which need neither) and the raw IMU samples. First the camera's rate is
 /// aligned with the gyro's in closed form (rate_alignment.h), then everything is solved for at once
 /// (camera_imu_batch.h): with the poses' noise and its correlation in time measured from the residuals, poses
-/// far off left out, and the sigmas honest therefore. What would be known worse than a rig file's figure is
-/// (1.5 cm, 0.4 deg, 1 ms) is held at `rig`'s value, direction by direction, and named; so are biases known
-/// to no better than 10 mrad/s and 50 mm/s^2 and a tilt to 0.3 deg, which trade off where the body leans
-/// little.
+/// far off left out. Half a pixel of the poses' error is taken to be alike over 0.7 s, and along the motion
+/// all the time, where it looks like a time offset: in a few seconds residuals do not show such errors, and
+/// on VECtor's clips sigmas without them are too small by two to three. `rig` is a prior (RigPriorSigma), and
+/// only what is observable and significantly off moves (RigUpdate). Biases known to no better than 10 mrad/s
+/// and 50 mm/s^2 and a tilt to 0.3 deg, which trade off where the body leans little, are named.
 ///
 /// `camera`: T_map_camera in order of time, stamped by the sensor (no offset added). `rig`: the figures to
 /// start from, noise densities and gravity. An IMU recording with holes over 50 ms is used up to them.

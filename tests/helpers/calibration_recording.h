@@ -48,6 +48,7 @@ struct Recording {
   Recording() {
     rig.T_body_camera = {ExpSO3({1.2, -1.2, 1.25}), {0.129, 0.079, 0.025}};
     rig.camera_time_offset = 3'000;
+    rig.camera.fx = 330;
     rig.imu_noise.gyro_density = 0.00073;
     rig.imu_noise.accel_density = 0.0013;
     rig.imu_noise.gyro_random_walk = 7e-6;

@@ -31,21 +31,44 @@ CameraImuCalibration Found() {
   c.values.offset = -4'321;
   c.values.tilt = {0.02, 0};
   c.covariance.diagonal().setConstant(1e-6);
+  c.prior_sigma = RigPriorSigma(Before());
+  RigVector found;
+  found << 0.0105, 0, 0, 0, 0.02, 0, -0.004321;
+  RigVector sigma = RigVector::Constant(1e-3);
+  sigma[2] = 0.0099;  // along the body's z next to nothing
+  c.rig = UpdateRig(c.prior_sigma, 0, found, sigma.cwiseAbs2().asDiagonal());
+  c.covariance(2, 2) = c.rig.covariance(2, 2);
   return c;
 }
 
-TEST(CalibrationReport, TextNamesEachValueAndWhatIsNotObservable) {
+TEST(CalibrationReport, TextNamesEachValueAndWhatWasLearned) {
   CameraImuCalibration c = Found();
-  EXPECT_THAT(CalibrationText(Before(), c),
-              AllOf(HasSubstr("139.575"), HasSubstr("129.075"), HasSubstr("-4.321"), HasSubstr("1.146"),
-                    HasSubstr("moved by 10.5 mm"), Not(HasSubstr("NOT OBSERVABLE"))));
-  c.unobservable.push_back({Unobservable::Value::kTranslation, {0, 0, 1}, 0.09});
-  c.unobservable.push_back({Unobservable::Value::kTimeOffset, Eigen::Vector3d::Zero(), 0.004});
+  c.unobservable.push_back({Unobservable::Value::kGyroBias, {0, 0, 1}, 0.02});
   EXPECT_THAT(
       CalibrationText(Before(), c),
-      AllOf(HasSubstr("NOT OBSERVABLE from this motion: translation along (0.00, 0.00, 1.00) of the body, "
-                      "known to 9.0 cm only"),
-            HasSubstr("time offset, known to 4.0 ms only")));
+      AllOf(HasSubstr("139.575"), HasSubstr("129.075"), HasSubstr("-4.321"), HasSubstr("1.146"),
+            HasSubstr("moved by 10.5 mm"), HasSubstr("10.000       25.086   10.000  kept"),
+            HasSubstr("1.000  learned"),
+            HasSubstr("not observable from this motion, kept: translation along (0.00, 0.00, 1.00) of the "
+                      "body, known to 0.99 of the rig file's sigma"),
+            HasSubstr("learned, moved: time offset, off by 0.86 +- 0.20 of"),
+            HasSubstr("not observable: gyro bias along (0.00, 0.00, 1.00) of the body, known to 20 mrad/s"),
+            Not(HasSubstr("draws the result"))));
+}
+
+TEST(CalibrationReport, ARigFileThatIsFartherOffThanItSaysIsNamed) {
+  CameraImuCalibration c = Found();
+  c.rig.change[4] = 0.1;
+  EXPECT_THAT(CalibrationText(Before(), c), HasSubstr("the rig file is off by 7.3 of its sigmas"));
+}
+
+TEST(CalibrationReport, ARigFromWhichNothingWasLearnedIsTheOneBefore) {
+  CameraImuCalibration c = Found();
+  const RigVector sigma = 0.9 * c.prior_sigma;
+  c.rig = UpdateRig(c.prior_sigma, 0, c.prior_sigma, sigma.cwiseAbs2().asDiagonal());
+  const Rig rig = Calibrated(Before(), c);
+  EXPECT_EQ(rig.T_body_camera.p, Before().T_body_camera.p);
+  EXPECT_EQ(rig.T_body_camera_sigma.translation, Before().T_body_camera_sigma.translation);
 }
 
 TEST(CalibrationReport, RigFileHoldsWhatWasFoundAndWhereItIsFrom) {

@@ -20,6 +20,8 @@
 namespace evit::commands {
 namespace {
 
+constexpr int kNothingLearned = 2;  // exit code (docs/reference/exit-codes.md)
+
 struct CalibrateOptions {
   run::RunJob job;  // the event-only run
   std::string pose, from, seconds, out, poses, truth;
@@ -96,12 +98,21 @@ void Calibrate(CalibrateOptions* o) {
     throw std::runtime_error("not calibrated: " + found.reason + "; " + poses + " holds the camera's motion");
   }
   std::printf("%s", calibration::CalibrationText(before, found).c_str());
+  const SE3 start = camera.front().pose * found.values.T_body_camera.Inverse();
+  const std::string advice = calibration::TiltAdvice(found, job.map, start);
+  std::printf("%s%s", advice.empty() ? "" : "\n", advice.c_str());
+  if (!found.rig.learned_any()) {
+    std::fflush(stdout);
+    std::fprintf(stderr,
+                 "nothing was learned: keep using %s (%s is not written); record faster motion about two "
+                 "axes or more\n",
+                 job.rig.c_str(), o->out.c_str());
+    throw CLI::RuntimeError(kNothingLearned);
+  }
   WriteRig(o->out, calibration::Calibrated(before, found), LoadRigName(job.rig),
            calibration::RigComment(
                before, found, "From " + job.log + " and " + job.map + ", starting from " + job.rig + "."));
-  const SE3 start = camera.front().pose * found.values.T_body_camera.Inverse();
-  const std::string advice = calibration::TiltAdvice(found, job.map, start);
-  std::printf("%s%srig file: %s\n", advice.empty() ? "" : "\n", advice.c_str(), o->out.c_str());
+  std::printf("rig file: %s\n", o->out.c_str());
 }
 
 }  // namespace
@@ -140,9 +151,14 @@ void AddCalibrateCommand(CLI::App* app) {
       "tilt the rig by 45 degrees or more in each direction, which separates accelerometer bias from a tilt "
       "of "
       "the map.\n"
-      "Camera intrinsics, IMU noise and gravity are taken from the rig file. Values that the motion does not "
-      "make\n"
-      "observable are listed and keep the value of the rig file.");
+      "Camera intrinsics, IMU noise and gravity are taken from the rig file. Its T_body_camera counts with "
+      "the "
+      "standard\n"
+      "deviations that it states in T_body_camera_sigma (else 1 deg and 1 cm), its time offset with 5 ms. "
+      "What the "
+      "motion\n"
+      "does not make observable is listed and stays as it is; where that is everything, nothing is written: "
+      "code 2.");
   calibrate->callback([o] { Calibrate(o.get()); });
 }
 
