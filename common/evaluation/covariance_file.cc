@@ -22,7 +22,8 @@ Covariances ReadCovariances(const std::string& path) {
     if (!all.empty() && row.t <= all.back().t) rows.Fail("the time does not increase");
     all.push_back(row);
   }
-  if (all.empty()) throw std::runtime_error(path + ": contains no covariance");
+  if (all.empty())
+    throw std::runtime_error(path + ": contains no covariance; expected covariance.csv of evit run");
   return all;
 }
 

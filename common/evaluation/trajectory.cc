@@ -67,7 +67,10 @@ Trajectory ReadTum(const std::string& path, TumSkipped* skipped) {
   };
   if (out.rows > 0 && skipped == nullptr)
     fail("expected finite numbers and a quaternion: \"" + std::string(kLayout) + "\"");
-  if (rows.empty()) throw std::runtime_error(out.rows > 0 ? out.Text(path) : path + ": contains no pose");
+  if (rows.empty())
+    throw std::runtime_error(out.rows > 0
+                                 ? out.Text(path)
+                                 : path + ": contains no pose; expected rows of t x y z qx qy qz qw (TUM)");
   TimeOrderOptions in_order;
   in_order.strict = true;
   in_order.window = 0;  // a row out of order has no place

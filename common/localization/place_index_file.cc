@@ -53,8 +53,8 @@ fs::path CacheFolder() {
     const char* value = std::getenv(variable);
     return value != nullptr && *value == '/' ? fs::path(value) : fs::path();
   };
-  if (const fs::path folder = named("CACHE_DIRECTORY"); !folder.empty()) return folder;
-  if (const fs::path folder = named("XDG_CACHE_HOME"); !folder.empty()) return folder / "evit";
+  if (fs::path folder = named("CACHE_DIRECTORY"); !folder.empty()) return folder;
+  if (fs::path folder = named("XDG_CACHE_HOME"); !folder.empty()) return folder / "evit";
   const fs::path home = named("HOME");
   return home.empty() ? home : home / ".cache" / "evit";
 }

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/service/help_layout.h"
+
 namespace evit {
 
 CommandLine::Option& CommandLine::Option::Required() {
@@ -29,7 +31,9 @@ CommandLine::Option& CommandLine::Option::Excludes(const Option& other) {
   return *this;
 }
 
-CommandLine::CommandLine(const std::string& description) : app_(std::make_unique<CLI::App>(description)) {}
+CommandLine::CommandLine(const std::string& description) : app_(std::make_unique<CLI::App>(description)) {
+  LayOutHelp(app_.get());
+}
 
 CommandLine::~CommandLine() = default;
 

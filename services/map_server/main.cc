@@ -40,7 +40,7 @@ int Main(int argc, char** argv) {
   line.AddFlag(
       "--places", &places,
       "Make ready to say where in the map a keyframe was seen now, and not at the first question; kept "
-      "beside the map, as MAP.places (some 25 MB; may be deleted), or in the user's cache folder where the "
+      "beside the map, as MAP.places (about 25 MB; may be deleted), or in the user's cache folder where the "
       "map's cannot be written");
   evit::AddServiceOptions(&line, &options, false);
   if (const auto code = line.Parse(argc, argv)) return *code;

@@ -15,6 +15,7 @@
 #include "tools/evit/data_file.h"
 #include "tools/evit/interruptible.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/run/run.h"
 
 namespace evit::commands {
@@ -30,8 +31,12 @@ struct CalibrateOptions {
 // Runs the event-only tracker; the file of its poses.
 std::string Track(CalibrateOptions* o) {
   run::RunJob& job = o->job;
-  if (o->pose.empty() && o->from.empty())
-    throw std::runtime_error("--initial-pose or --initial-from is required");
+  if (o->pose.empty() && o->from.empty()) {
+    throw std::runtime_error(
+        "a start pose is missing: --initial-pose \"x y z qx qy qz qw\", as evit locate --log " + job.log +
+        " --map " + job.map + " --rig " + job.rig +
+        " finds it, or --initial-from FILE; with known poses, --truth FILE needs none");
+  }
   if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
   job.initial_from = o->from;
   if (!o->seconds.empty()) job.play.seconds = ParseSeconds(o->seconds);
@@ -83,9 +88,18 @@ void CalibrateWithTruth(const CalibrateOptions& o) {
   std::printf("rig file: %s\n", o.out.c_str());
 }
 
+void RequireOutputs(const CalibrateOptions& o) {
+  RequireOutput("--out", o.out);
+  RequireNotAnInput("--out", o.out, {o.job.log, o.job.map, o.poses, o.truth, o.from});
+  RequireOutputFolder("--work", o.job.out);
+}
+
 void Calibrate(CalibrateOptions* o) {
+  RequireOutputs(*o);
   if (!o->truth.empty()) return CalibrateWithTruth(*o);
-  if (o->out.empty()) throw std::runtime_error("--out is required without --truth: the rig file to write");
+  if (o->out.empty())
+    throw std::runtime_error(
+        "--out is missing: the rig file to write (only with --truth it may be left out)");
   const run::RunJob& job = o->job;
   const Rig before = LoadRig(job.rig);
   const std::string poses = o->poses.empty() ? Track(o) : o->poses;

@@ -11,6 +11,7 @@
 #include "common/geometry/degrees.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/pictures/consistency_plot.h"
 #include "tools/run/tracked_time.h"
 
@@ -141,6 +142,8 @@ void PrintText(const Evaluation& e) {
 }
 
 void RunEval(const EvalOptions& o) {
+  RequireOutput("--plot", o.plot);
+  RequireNotAnInput("--plot", o.plot, {o.truth, o.estimate, o.covariance});
   const Evaluation evaluation = Evaluate(o);
   if (evaluation.consistency && !o.plot.empty()) {
     const Utime begin = evaluation.truth.front().t;

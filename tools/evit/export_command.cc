@@ -38,7 +38,11 @@ void AddExportLog(CLI::App* app, const char* name, const char* text, formats::Ex
                         "WxH of the sensor, for the header (default: what holds all events)");
   command->callback([o] {
     if (!o->size.empty()) ParseSize(o->size, &o->job.width, &o->job.height);
-    if (o->job.format != formats::ExportFormat::kRpg) RequireOutput("--out", o->job.out);
+    if (o->job.format == formats::ExportFormat::kRpg) {
+      RequireOutputFolder("--out", o->job.out);
+    } else {
+      RequireOutput("--out", o->job.out);
+    }
     RequireNotAnInput("--out", o->job.out, {o->job.log});
     formats::ExportSummary s;
     {

@@ -80,7 +80,7 @@ void RequireOthersThanInputs(const RecordingOptions& o) {
 }
 
 void ImportAny(RecordingOptions* o) {
-  if (o->job.paths.empty())
+  if (o->job.paths.empty() || o->job.paths.front().empty())
     throw std::runtime_error("no recording given: evit import FILE --out LOG, or evit import --help");
   if (o->shared.out.empty()) throw std::runtime_error("--out is missing: the log to write");
   RequireOthersThanInputs(*o);

@@ -4,6 +4,7 @@
 #include "common/geometry/pose_text.h"
 #include "tools/evit/import_options.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/formats/rpg/rpg_import.h"
 
 namespace evit::commands {
@@ -41,6 +42,7 @@ void AddImportRpg(CLI::App* import) {
       "Noise: the defaults are the MPU6150's, in the DAVIS240C. Events, samples and poses that are out of\n"
       "order, not finite or outside the sensor are counted and left out.");
   rpg->callback([o] {
+    RequireOutput("--rig-out", o->job.rig_out);
     o->shared.Apply(&o->job);
     if (!o->size.empty()) ParseSize(o->size, &o->job.width, &o->job.height);
     if (!o->pose.empty()) o->job.T_body_camera = ParsePose("--t-body-camera", o->pose);

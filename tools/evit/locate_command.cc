@@ -16,6 +16,7 @@
 #include "common/localization/prior_text.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/evit/place_options.h"
 #include "tools/locate/candidates_picture.h"
 #include "tools/locate/locator_run.h"
@@ -108,6 +109,7 @@ PlaceFinderOptions LeaveOut(const std::vector<std::string>& parts, int threads, 
 }
 
 int Locate(const LocateOptions& o) {
+  RequireOutput("--picture", o.picture);
   const Rig rig = LoadRig(o.rig);
   const PipelineOptions options = LoadOptionsFor(rig.camera, o.config);
   if (options.method != PipelineOptions::Method::kEvit)

@@ -6,21 +6,19 @@
 #include <string>
 
 #include "common/files/staged_file.h"
+#include "common/service/help_layout.h"
 #include "tools/evit/commands.h"
+#include "tools/evit/input_files.h"
 #include "tools/evit/usage_error.h"
 
 namespace {
 
 // CLI11 would only say that a subcommand is required.
-void RequireKnownCommand(CLI::App& app, int argc, char** argv) {
+void RequireKnownCommand(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
-  std::string known;
-  for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     if (command->get_name() == argv[1]) return;
-    known.append(known.empty() ? "" : ", ").append(command->get_name());
-  }
-  throw std::runtime_error(
-      std::string("there is no command \"").append(argv[1]).append("\"; known: ").append(known));
+  throw std::runtime_error(evit::commands::UnknownCommand(app, argv[1]));
 }
 
 int Main(int argc, char** argv) {
@@ -29,6 +27,7 @@ int Main(int argc, char** argv) {
       "A first run: evit simulate, evit import vector, evit run; see README.md."};
   app.set_version_flag("--version", EVIT_VERSION);
   app.require_subcommand(1);
+  evit::LayOutHelp(&app);
   evit::commands::AddImportCommand(&app);
   evit::commands::AddExportCommand(&app);
   evit::commands::AddFeedCommand(&app);
@@ -47,6 +46,7 @@ int Main(int argc, char** argv) {
   evit::commands::AddMonitorCommand(&app);
   evit::commands::AddTopCommand(&app);
   evit::commands::AddRenderCommand(&app);
+  evit::commands::CheckInputs(&app);
   try {
     if (argc < 2) {
       std::fputs(app.help().c_str(), stderr);
@@ -57,9 +57,7 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return evit::commands::SayUsageError(app, error);
   } catch (const std::exception& error) {
-    const auto chosen = app.get_subcommands();
-    const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
-    std::fprintf(stderr, "evit%s: error: %s\n", name.c_str(), error.what());
+    std::fprintf(stderr, "%s: error: %s\n", evit::commands::CommandName(app).c_str(), error.what());
     return 1;
   }
   return 0;

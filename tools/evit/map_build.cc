@@ -8,6 +8,7 @@
 #include "common/map/map_file.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/mapping/build_report.h"
 #include "tools/mapping/map_making.h"
 
@@ -147,6 +148,9 @@ void AddMapBuild(CLI::App* map) {
       "distance.");
   command->callback([o, contrast, voxel] {
     mapping::MapMaking& m = o->making;
+    RequireOutput("--out", o->out);
+    RequireOutput("--poses-out", o->adjusted);
+    RequireNotAnInput("--poses-out", o->adjusted, {m.poses, m.events, m.rig, o->out});
     // Where depth is measured a weak edge is placed as well as a strong one.
     if (!m.rgbd.empty() && contrast->count() == 0) m.reader.edges.sure_contrast = 0.25;
     if (!(m.build.stereo.min_depth_m < m.build.stereo.max_depth_m))

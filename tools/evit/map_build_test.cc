@@ -257,7 +257,14 @@ TEST_F(MapBuildTest, RefusesWhatMakesNoMapAndLeavesNothingBehind) {
       {Build("pictures", "poses.tum", "--frames 20:30"), "only 16 pictures"},
       {Build("pictures", "poses.tum", "--min-depth 5 --max-depth 2"), "--min-depth"},
       {Map("build --out " + File("map.pcd")), "--images"},
-      {Map("build --images x --poses y --camera z --out map.txt"), ".pcd"}};
+      {Map("build --images x --out map.txt"), ".pcd"},
+      {Map("build --images x --out /not/there/map.pcd"),
+       "--out /not/there/map.pcd: there is no folder /not/there"},
+      {Map("build --images x --out /proc/map.pcd"), "nothing can be written to /proc"},
+      {Map("build --images x --out " + File("map.pcd") + " --poses-out /proc/p.tum"),
+       "--poses-out /proc/p.tum"},
+      {Map("build --images x --poses " + File("pictures") + " --out map.pcd"), "is a folder"},
+      {Map("build --images x --poses y --out map.pcd"), "--poses y: there is no such file"}};
   for (const auto& [outcome, words] : refused) {
     EXPECT_NE(outcome.code, 0) << words;
     EXPECT_THAT(outcome.output, HasSubstr(words));

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tools/evit/commands.h"
+#include "tools/evit/output_names.h"
 #include "tools/mapping/check_findings.h"
 #include "tools/mapping/check_pictures.h"
 #include "tools/terminal/progress_bar.h"
@@ -78,6 +79,7 @@ void AddMapCheck(CLI::App* map) {
       "Exit code: 0 nothing looks wrong, 2 an error, 3 warnings only.\n"
       "In the pictures pixels that fired are grey, points of the map on them blue, others orange.");
   command->callback([o] {
+    RequireOutputFolder("--out", o->out);
     mapping::MapCheck check;
     {
       terminal::ProgressBar bar("checking");

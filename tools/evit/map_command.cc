@@ -11,6 +11,7 @@
 #include "common/map/map_file.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/mapping/map_edit.h"
 #include "tools/pictures/top_view.h"
 
@@ -92,6 +93,7 @@ void AddMapCommand(CLI::App* app) {
       ->check(CLI::PositiveNumber);
   convert->footer("Example: evit map import scan_mm.ply --scale 0.001 --voxel 0.01 --out map.pcd");
   convert->callback([o] {
+    RequireOutput("--out", o->out);
     const SE3 T = o->transform.empty() ? SE3() : ParseTransform("--transform", o->transform);
     LoadedMap loaded = LoadMap(o->in, {o->scale, T});
     if (o->voxel > 0) mapping::Thin(o->voxel, &loaded.map);
@@ -114,6 +116,9 @@ void AddMapCommand(CLI::App* app) {
   info->add_option("--out", o->views, "Folder for top.png and side.png (x to the right, z up)");
   info->footer("Example: evit map info map.pcd --png map.png");
   info->callback([o] {
+    RequireOutput("--png", o->png);
+    RequireNotAnInput("--png", o->png, {o->in});
+    RequireOutputFolder("--out", o->views);
     const LoadedMap loaded = LoadMap(o->in);
     if (!o->png.empty()) pictures::WriteTopView(o->png, loaded.map);
     if (!o->views.empty()) WriteViews(o->views, loaded.map);

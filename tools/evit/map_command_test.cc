@@ -104,7 +104,7 @@ TEST(MapCommandTest, PhotometricOutputIsCheckedBeforeFusing) {
   EXPECT_THAT(result.output, HasSubstr(".ply"));
   result = Map("photometric /nowhere --out /not/there/map.ply");
   EXPECT_NE(result.code, 0);
-  EXPECT_THAT(result.output, HasSubstr("/not/there: no such folder"));
+  EXPECT_THAT(result.output, HasSubstr("there is no folder /not/there"));
   result = Map("photometric /nowhere --out /tmp/map.ply");
   EXPECT_NE(result.code, 0);
   EXPECT_THAT(result.output, HasSubstr("/nowhere"));

@@ -13,6 +13,7 @@
 #include "common/map/map_file.h"
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/mapping/build_report.h"
 #include "tools/mapping/gravity_direction.h"
 
@@ -70,6 +71,7 @@ void AddMapEdits(CLI::App* map) {
       ->capture_default_str();
   merge->footer("Example: evit map merge left.pcd right.pcd --out room.pcd");
   merge->callback([m] {
+    RequireOutput("--out", m->out);
     std::vector<PointMap> maps;
     for (const std::string& path : m->in) maps.push_back(LoadMap(path).map);
     WriteEdited(*m, mapping::Merge(maps, m->voxel));
@@ -81,6 +83,7 @@ void AddMapEdits(CLI::App* map) {
   crop->add_flag("--outside", c->outside, "Keep what lies outside the box instead");
   crop->footer("Example: evit map crop room.pcd --box :,:,0.1:2 --out without_floor.pcd");
   crop->callback([c] {
+    RequireOutput("--out", c->out);
     PointMap cropped = LoadMap(c->in.front()).map;
     mapping::Crop(mapping::ParseBox("--box", c->box), c->outside, &cropped);
     WriteEdited(*c, cropped);
@@ -106,6 +109,8 @@ void AddMapEdits(CLI::App* map) {
       "Example: evit map transform scan.pcd --transform \"0 -1 0 0 1 0 0 0 0 0 1 0.5 0 0 0 1\" --out "
       "turned.pcd");
   transform->callback([t] {
+    RequireOutput("--out", t->out);
+    RequireOutput("--truth-out", t->truth_out);
     PointMap moved = LoadMap(t->in.front()).map;
     SE3 T = t->transform.empty() ? SE3() : ParseTransform("--transform", t->transform);
     if (!t->upright.empty()) T = TurnUpright(*t);

@@ -6,19 +6,18 @@
 #include <string>
 
 #include "tools/evit/commands.h"
+#include "tools/evit/output_names.h"
 #include "tools/formats/rgbd/rgbd_folder.h"
 #include "tools/terminal/progress_bar.h"
 
 namespace evit::commands {
 namespace {
 
-// Said before minutes of fusing, not after. Empty: fine.
+// Empty: fine.
 std::string NewPly(const std::string& path) {
   const std::filesystem::path file(path);
   if (file.extension() != ".ply")
     return path + ": photometric maps are written as PLY; give a name that ends in .ply";
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  if (!std::filesystem::is_directory(folder)) return folder.string() + ": no such folder; make it first";
   return "";
 }
 
@@ -44,6 +43,7 @@ void AddMapPhotometric(CLI::App* map) {
   command->add_option("--every", o->every, "Use every Nth image")->check(CLI::PositiveNumber);
   command->footer("Example: evit map photometric desk/rgbd --out desk.ply");
   command->callback([o] {
+    RequireOutput("--out", o->out);
     const formats::RgbdFolder folder(o->folder);
     RgbdFusion fusion(o->fusion);
     {

@@ -7,12 +7,17 @@
 #include <stdexcept>
 
 namespace evit::commands {
+namespace {
+
+constexpr double kLongest = 1e9;  // s, thirty years: microseconds fit into 64 bits
+
+}  // namespace
 
 std::pair<double, double> ParseSeconds(const std::string& text) {
   double a = 0, b = 0;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%lf:%lf%c", &a, &b, &rest) != 2 || !(a >= 0 && b > a)) {
-    throw std::runtime_error("--seconds " + text + ": expected A:B with 0 <= A < B");
+  if (std::sscanf(text.c_str(), "%lf:%lf%c", &a, &b, &rest) != 2 || !(a >= 0 && b > a && b <= kLongest)) {
+    throw std::runtime_error("--seconds \"" + text + "\": expected A:B with 0 <= A < B, in seconds");
   }
   return {a, b};
 }
@@ -31,6 +36,8 @@ SE3 ParseTransform(const std::string& option, const std::string& text) {
   for (int k = 0; k < 16; ++k) {
     if (!(words >> m.data()[k])) throw std::runtime_error(option + ": expected 16 numbers (4x4, row-major)");
   }
+  if (std::string more; words >> more)
+    throw std::runtime_error(option + ": expected 16 numbers (4x4, row-major), and no more: " + more);
   const Eigen::Matrix3d R = m.topLeftCorner<3, 3>();
   if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 1e-3 || R.determinant() < 0) {
     throw std::runtime_error(option + ": the upper left 3x3 is not a rotation");

@@ -6,6 +6,7 @@
 #include "tools/evit/commands.h"
 #include "tools/evit/data_file.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/paper/paper.h"
 
 namespace evit::commands {
@@ -52,6 +53,7 @@ void AddPaperCommand(CLI::App* app) {
       "config/paper.textproto lists what is run.\n"
       "Exit code: 0 all done, 1 something failed, 130 interrupted.");
   paper->callback([o] {
+    RequireOutputFolder("--out", o->out);
     if (o->config.empty()) o->config = DataFile("config/paper.textproto");
     o->programs = std::filesystem::read_symlink("/proc/self/exe").parent_path().string();
     o->shared_data = SharedData();

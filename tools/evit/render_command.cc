@@ -6,6 +6,7 @@
 
 #include "tools/evit/commands.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/render/render_run.h"
 
 namespace evit::commands {
@@ -19,9 +20,7 @@ void AddRenderCommand(CLI::App* app) {
   render::RenderOptions& r = o->render;
   CLI::App* command =
       app->add_subcommand("render", "Make a film of a run that was recorded (evit run --record)");
-  command->add_option("log", r.log, "LCM log with KEYFRAME and WINDOW_STATE")
-      ->required()
-      ->check(CLI::ExistingFile);
+  command->add_option("log", r.log, "LCM log with KEYFRAME and WINDOW_STATE")->required();
   command->add_option("--map", r.map, "Map: PCD, PLY or text")->required();
   command->add_option("--rig", r.rig, "Calibration")->required();
   command->add_option("--out", r.out, "Film to write: .mp4 or .gif")->required();
@@ -48,6 +47,8 @@ void AddRenderCommand(CLI::App* app) {
   command->footer("Example: evit render run.lcmlog --map desk.pcd --rig rig.textproto --out run.mp4");
   command->callback([o] {
     render::RenderOptions& options = o->render;
+    RequireOutput("--out", options.out);
+    RequireNotAnInput("--out", options.out, {options.log, options.map, options.rig});
     if (!o->seconds.empty()) options.seconds = ParseSeconds(o->seconds);
     options.paint.size.width &= ~1;  // films have even sides
     options.paint.size.height = options.paint.size.width * 9 / 16 & ~1;

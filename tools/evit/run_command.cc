@@ -103,6 +103,7 @@ void AddBus(CLI::App* run, RunOptions* o) {
 // Completes the job from what was typed.
 void FinishJob(RunOptions* o) {
   run::RunJob& job = o->job;
+  RequireOutputFolder("--out", job.out);
   if (!o->pose.empty()) job.initial_pose = ParsePose("--initial-pose", o->pose);
   job.initial_from = o->from;
   job.tolerate.no_score = job.truth.empty();

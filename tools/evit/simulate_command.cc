@@ -12,6 +12,7 @@
 #include "tools/evit/data_file.h"
 #include "tools/evit/interruptible.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/evit/simulate_options.h"
 #include "tools/simulation/load_motion.h"
 #include "tools/simulation/simulator.h"
@@ -46,6 +47,7 @@ void PrintSummary(const simulation::SimulationSettings& settings, const simulati
 
 void Run(const SimulateOptions& options) {
   simulation::SimulationSettings settings = options.Settings();
+  RequireOutputFolder("--out", settings.out);
   settings.command = CommandLineOfThis();
   const std::string rig = options.rig().empty() ? DataFile("config/vector/rig.textproto") : options.rig();
   simulation::SimulationSummary summary;

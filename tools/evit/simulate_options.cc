@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <thread>
@@ -20,7 +21,7 @@ bool ParseNumbers(const std::string& text, const std::vector<double*>& values) {
     char* end = nullptr;
     *values[k] = std::strtod(at, &end);
     const char stop = k + 1 < values.size() ? ':' : '\0';
-    if (end == at || *end != stop) return false;
+    if (end == at || *end != stop || !std::isfinite(*values[k])) return false;
     at = end + 1;
   }
   return true;
@@ -106,7 +107,7 @@ void SimulateOptions::AddTo(CLI::App* command) {
   command->add_option("--scene", s.room.seed, "Seed of the room");
   command->add_option("--out", s.out, "Folder to write")->required();
   command->add_option("--name", s.name, "Name of the sequence (default: of the trajectory)");
-  command->add_option("--rig", rig_, "Rig file (default: VECtor's)")->check(CLI::ExistingFile);
+  command->add_option("--rig", rig_, "Rig file (default: VECtor's)");
   command->add_option("--seed", s.seed, "Seed of all noise");
   command->add_option("--threads", s.threads, "Threads; the result is the same with any number");
   command->add_option("--preview", s.previews, "Pictures to write: image | events | map on events");

@@ -16,6 +16,7 @@
 #include "tools/evit/data_file.h"
 #include "tools/evit/deployment_files.h"
 #include "tools/evit/options.h"
+#include "tools/evit/output_names.h"
 #include "tools/run/alone_on_bus.h"
 #include "tools/run/local_network.h"
 #include "tools/run/run_file.h"
@@ -84,6 +85,7 @@ void Up(const UpOptions& o) {
   const procman::Deployment deployment = procman::LoadDeployment(DeploymentFile(o.file));
   std::string deputy_id;
   const std::vector<procman::ProcmanCommand> commands = CommandsOf(deployment, o, &deputy_id);
+  RequireOutputFolder("--logs", o.logs);
   std::filesystem::create_directories(o.logs);
   SetDefaults(std::filesystem::absolute(o.logs));
   RequireFiles(deployment, o.script, deputy_id);

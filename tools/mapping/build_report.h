@@ -11,7 +11,7 @@
 /// What `evit map build` says, refuses and writes.
 namespace evit::mapping {
 
-/// Said before minutes of work, not after: why no map can be written under this name. Empty: it can.
+/// Why no map is written under a name that ends like this. Empty: one is.
 std::string CannotWriteMap(const std::string& path);
 
 /// What was left out, in words.

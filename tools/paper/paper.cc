@@ -28,6 +28,11 @@ int MakePaper(const PaperOptions& options, const std::string& command, const std
         [&](double share, const std::string& note) { bar.Show(share, note); },
         [&] { return signals.received(); });
   }
+  if (facts.outcome.interrupted) {
+    std::fprintf(stderr,
+                 "evit paper: interrupted: %zu of %zu jobs are done and kept; the same command continues\n",
+                 facts.outcome.done + facts.outcome.kept, JobsOf(plan).size());
+  }
   for (const auto& failure : facts.outcome.failures)
     std::fprintf(stderr, "evit paper: %s failed: %s\n", failure.id.c_str(), failure.words.c_str());
 

@@ -63,11 +63,12 @@ Trajectory MakeBuiltin(const MotionSettings& settings, const Rig& rig, Motion* m
   motion->name = settings.source.substr(std::string(kBuiltin).size());
   const BuiltinMotion* formula = FindBuiltinMotion(motion->name);
   if (formula == nullptr) {
-    throw std::runtime_error("unknown trajectory '" + settings.source + "': a TUM file, or one of " +
+    throw std::runtime_error("--trajectory " + settings.source +
+                             ": there is no such motion; a file of poses (TUM), or one of " +
                              BuiltinMotionNames());
   }
   if (!(settings.duration_s >= 0.5 && settings.duration_s <= 600)) {
-    throw std::runtime_error("duration must be 0.5 to 600 s");
+    throw std::runtime_error("--duration must be 0.5 to 600 s");
   }
   if (settings.variant < 1) throw std::runtime_error("variants of builtin motions count from 1");
   // Played faster, it takes more of the formula to fill the time.
@@ -82,6 +83,17 @@ Trajectory MakeBuiltin(const MotionSettings& settings, const Rig& rig, Motion* m
 
 // A file's poses of the part to simulate; sets what is known of it.
 Trajectory ReadRecorded(const MotionSettings& settings, const Rig& rig, Motion* motion) {
+  std::error_code error;
+  if (!std::filesystem::exists(settings.source, error) && FindBuiltinMotion(settings.source) != nullptr)
+    throw std::runtime_error("--trajectory " + settings.source + ": there is no such file; did you mean " +
+                             kBuiltin + settings.source + "?");
+  if (!std::filesystem::exists(settings.source, error))
+    throw std::runtime_error("--trajectory " + settings.source +
+                             ": there is no such file; a file of poses (TUM), or one of " +
+                             BuiltinMotionNames());
+  if (std::filesystem::is_directory(settings.source, error))
+    throw std::runtime_error("--trajectory " + settings.source +
+                             ": is a folder; give the file of poses in it");
   Trajectory poses = ReadTum(settings.source);
   if (poses.size() < 20) throw std::runtime_error(settings.source + ": too few poses for a motion");
   motion->name = std::filesystem::path(settings.source).stem().string();
@@ -107,7 +119,7 @@ bool IsBuiltin(const MotionSettings& settings) { return settings.source.rfind(kB
 
 Motion LoadMotion(const MotionSettings& settings, const Rig& rig) {
   if (!(settings.play_speed >= 0.1 && settings.play_speed <= 20))
-    throw std::runtime_error("play speed must be 0.1 to 20");
+    throw std::runtime_error("--play-speed must be 0.1 to 20");
   Motion motion;
   Trajectory poses =
       IsBuiltin(settings) ? MakeBuiltin(settings, rig, &motion) : ReadRecorded(settings, rig, &motion);

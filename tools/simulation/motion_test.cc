@@ -245,6 +245,23 @@ Rig MarkerRig() {
   return rig;
 }
 
+TEST(LoadMotion, SaysWhatANameMayHaveMeant) {
+  const auto said = [](const std::string& source) -> std::string {
+    MotionSettings settings;
+    settings.source = source;
+    try {
+      LoadMotion(settings, TestRig());
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(said("handheld").find("did you mean builtin:handheld?"), std::string::npos) << said("handheld");
+  EXPECT_NE(said("builtin:handhelt").find("no such motion"), std::string::npos);
+  EXPECT_NE(said("none.tum").find("no such file"), std::string::npos);
+  EXPECT_NE(said("/tmp").find("is a folder"), std::string::npos);
+}
+
 TEST(LoadMotion, DetectsMarkerPoses) {
   const Rig rig = MarkerRig();
   MotionSettings settings;

@@ -37,6 +37,7 @@ std::string OneText(const H5Handle& type, const H5Handle& space, const ReadAs& r
 }  // namespace
 
 bool H5File::Recognises(const std::string& path) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are ours to word
   return std::filesystem::is_regular_file(path) && H5Fis_hdf5(path.c_str()) > 0;
 }
 

@@ -16,22 +16,22 @@ constexpr double kLeastCovered = 0.5;      // of the events' time
 std::vector<std::string> DoubtsOf(const ImportSummary& s) {
   std::vector<std::string> doubts;
   if (s.n_events < kFewEvents) {
-    doubts.push_back(
-        FormatText("only %lld events in %.1f s: a keyframe alone takes 500, and tracking needs %lld or more; is it "
-                   "the right file, and whole?",
-                   static_cast<long long>(s.n_events), s.seconds, static_cast<long long>(kFewEvents)));
+    doubts.push_back(FormatText(
+        "only %lld events in %.1f s: a keyframe alone takes 500, and tracking needs %lld or more; is it "
+        "the right file, and whole?",
+        static_cast<long long>(s.n_events), s.seconds, static_cast<long long>(kFewEvents)));
   }
   if (s.n_imu == 0) return doubts;
   if (s.n_imu < kFewSamples || s.imu_rate_hz < kSlowestImu) {
-    doubts.push_back(
-        FormatText("only %lld IMU samples, %.3g a second, for %.1f s of events: tracking needs %.0f a second or "
-                   "more, 200 is usual; is it the right file, and whole?",
-                   static_cast<long long>(s.n_imu), s.imu_rate_hz, s.seconds, kSlowImu));
+    doubts.push_back(FormatText(
+        "only %lld IMU samples, %.3g a second, for %.1f s of events: tracking needs %.0f a second or "
+        "more, 200 is usual; is it the right file, and whole?",
+        static_cast<long long>(s.n_imu), s.imu_rate_hz, s.seconds, kSlowImu));
   } else if (s.imu_covers_s < kLeastCovered * s.seconds) {
-    doubts.push_back(
-        FormatText("the IMU samples cover %.1f s of the %.1f s of events: there is no tracking in the rest; is it "
-                   "the right file, and whole?",
-                   s.imu_covers_s, s.seconds));
+    doubts.push_back(FormatText(
+        "the IMU samples cover %.1f s of the %.1f s of events: there is no tracking in the rest; is it "
+        "the right file, and whole?",
+        s.imu_covers_s, s.seconds));
   }
   return doubts;
 }
