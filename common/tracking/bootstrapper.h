@@ -1,17 +1,13 @@
 #pragma once
 
 #include <deque>
-#include <memory>
 #include <string>
-#include <vector>
 
 #include "common/geometry/rig.h"
-#include "common/tracking/anchor.h"
 #include "common/tracking/keyframe_input.h"
 #include "common/tracking/point_selector.h"
 #include "common/tracking/sliding_window.h"
-#include "common/tracking/start_search.h"
-#include "common/tracking/visual_inertial_alignment.h"
+#include "common/tracking/start_chain.h"
 
 namespace evit {
 
@@ -50,25 +46,8 @@ class Bootstrapper {
   const BodyState& state() const { return state_; }
 
  private:
-  struct LocalizedFrame {  // kept until the window takes over
-    BootstrapFrame frame;
-    std::int64_t seq;
-    std::shared_ptr<const SurfaceField> field;
-    AlignmentPoints points;
-    double significance;
-    int n_events;
-  };
-
-  void Restart(const BodyState& state);
-  double MeanSignificance() const;
-  void BeginChain(Utime t);
-  double StartError() const;
   void RejectFrame(Result* result);
-  Eigen::Vector3d RecentVelocity() const;
-  bool HasMoved() const;
-  bool ReadyToAlign() const;
-  bool Found() const;
-  bool RuleOutRivals(Result* result);
+  void Judge(const SurfaceField& field, Result* result);
   void Align(Result* result);
 
   Rig rig_;
@@ -76,21 +55,8 @@ class Bootstrapper {
   AlignmentSettings alignment_;
   const PointSelector* points_;
   BodyState state_;
-  Anchor anchor_;
-  int rejected_ = 0;                    // frames in a row, or since the map was last found
-  std::vector<LocalizedFrame> frames_;  // consecutive, no gaps
-  bool unrivaled_ = false;              // this chain: no other pose explains the events as well
-  std::int64_t looked_at_ = 0;          // number of the frame in which rivals were looked for last
-  // How wrong the start pose was, in ranges of a start search, at least 1: by this chain, and at least by the
-  // rivals that chains have been given up for.
-  double start_error_ = 1, least_start_error_ = 1;
-  Utime anchored_at_ = 0;  // us: of the first frame after the anchor's start; 0: there was none
-  // When this chain began (us) and where, seen from the anchor: m (map frame), rad, and s since its start.
-  struct {
-    Utime t = 0;
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    double rotation = 0, seconds = 0;
-  } chain_begin_;
+  StartChain chain_;
+  int rejected_ = 0;  // frames in a row, or since the map was last found
 };
 
 }  // namespace evit

@@ -1,6 +1,9 @@
 #include "common/tracking/rival_watch.h"
 
+#include <algorithm>
+
 #include "common/tracking/alignment_significance.h"
+#include "common/tracking/gates.h"
 
 namespace evit {
 namespace {
@@ -21,6 +24,21 @@ constexpr double kSamePlace = 0.05;  // m, rad
 void RivalWatch::Start(Utime t) {
   started_at_ = searched_at_ = t;
   confirmations_ = 0;
+}
+
+std::optional<SE3> RivalWatch::Search(const AlignmentSettings& settings, const PointSelector& points,
+                                      const KeyframeInput& keyframe, const BodyState& state,
+                                      const Eigen::Vector3d& rate, bool coasting) {
+  if (!Due(keyframe.t, coasting)) return std::nullopt;
+  // With more points the pose of this keyframe would come too late, as the search comes before it.
+  constexpr int kEnough = 4000;
+  const int n = std::min(points.affordable(), kEnough);
+  const AlignmentPoints some = points.Select(state, rate, n, keyframe.seq);
+  if (some.size() < kMinPoints) return std::nullopt;
+  const SurfaceField field(keyframe.surface, kStartRange.levels);
+  const SE3& pose = state.T_map_body;
+  const StartRival rival = FindRival(settings, field, some, pose, kStartRange, keyframe.seq);
+  return Confirm(keyframe.t, pose, rival, AlignmentSignificance(settings, field, some, rival.T_map_body));
 }
 
 bool RivalWatch::Due(Utime t, bool coasting) const {

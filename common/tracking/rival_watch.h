@@ -4,6 +4,8 @@
 
 #include "common/geometry/se3.h"
 #include "common/time/utime.h"
+#include "common/tracking/keyframe_input.h"
+#include "common/tracking/point_selector.h"
 #include "common/tracking/start_search.h"
 
 namespace evit {
@@ -16,6 +18,12 @@ class RivalWatch {
  public:
   /// Bootstrapping has ended at `t` (us): the first second is watched closely.
   void Start(Utime t);
+
+  /// Where it is due, searches at this keyframe for a pose that explains its events better than `state`'s:
+  /// FindRival and Confirm. `rate`: rad/s, body frame.
+  std::optional<SE3> Search(const AlignmentSettings& settings, const PointSelector& points,
+                            const KeyframeInput& keyframe, const BodyState& state,
+                            const Eigen::Vector3d& rate, bool coasting);
 
   /// Whether to search at the keyframe at `t`. `coasting`: the map does not lie on its events.
   bool Due(Utime t, bool coasting) const;

@@ -130,6 +130,16 @@ LocalizerResult Search(const AlignmentSettings& settings, const SurfaceField& fi
   return best;
 }
 
+StartRival Compare(const AlignmentSettings& settings, const SurfaceField& field,
+                   const AlignmentPoints& points, const SE3& T_map_body, const SE3& other) {
+  StartRival rival;
+  rival.T_map_body = other;
+  rival.distinct =
+      (other.p - T_map_body.p).norm() > kSameValley || AngularDistance(other.q, T_map_body.q) > kSameValley;
+  rival.significance = SignificanceOver(settings, field, points, T_map_body, other);
+  return rival;
+}
+
 }  // namespace
 
 LocalizerResult SearchStart(const AlignmentSettings& settings, const SurfaceField& field,
@@ -142,13 +152,16 @@ StartRival FindRival(const AlignmentSettings& settings, const SurfaceField& fiel
                      const AlignmentPoints& points, const SE3& T_map_body, const StartRange& range,
                      std::int64_t frame, int rounds) {
   const AlignmentPoints some = Thinned(points, kRivalPoints);
-  StartRival rival;
-  rival.T_map_body =
-      Search(settings, field, some, T_map_body, range, kFarthestRival, frame, rounds).T_map_body;
-  rival.distinct = (rival.T_map_body.p - T_map_body.p).norm() > kSameValley ||
-                   AngularDistance(rival.T_map_body.q, T_map_body.q) > kSameValley;
-  rival.significance = SignificanceOver(settings, field, some, T_map_body, rival.T_map_body);
-  return rival;
+  return Compare(settings, field, some, T_map_body,
+                 Search(settings, field, some, T_map_body, range, kFarthestRival, frame, rounds).T_map_body);
+}
+
+StartRival FindRivalAround(const AlignmentSettings& settings, const SurfaceField& field,
+                           const AlignmentPoints& points, const SE3& T_map_body, const SE3& centre,
+                           const StartRange& range, std::int64_t frame, int rounds) {
+  const AlignmentPoints some = Thinned(points, kRivalPoints);
+  return Compare(settings, field, some, T_map_body,
+                 Search(settings, field, some, centre, range, kFarthest, frame, rounds).T_map_body);
 }
 
 }  // namespace evit

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "common/imu/propagation.h"
@@ -13,8 +14,7 @@
 namespace evit {
 namespace {
 
-constexpr Utime kLongCoasting = 500'000;         // us
-constexpr StartRange kRivalRange{0.1, 0.09, 4};  // as far as a start may be wrong
+constexpr Utime kLongCoasting = 500'000;  // us
 
 double PositionSigma(const Matrix6d& covariance) {
   return std::sqrt(covariance.topLeftCorner<3, 3>().diagonal().maxCoeff());
@@ -158,9 +158,10 @@ WindowTracker::Result WindowTracker::Process(const KeyframeInput& keyframe, cons
   const std::string wrong = tells ? probation_.WhyFalse(keyframe.t) : "";
   ReportUncertainty(rate, out);
 
-  const std::optional<SE3> rival = keyframe.n_events >= options_.min_events && !result.stands_still
-                                       ? SearchRival(keyframe, rate, !result.coasting.empty())
-                                       : std::nullopt;
+  const std::optional<SE3> rival =
+      keyframe.n_events >= options_.min_events && !result.stands_still
+          ? rivals_.Search(alignment_, *points_, keyframe, state(), rate, !result.coasting.empty())
+          : std::nullopt;
   const std::string impossible = WhyImplausible(newest.state, options_.failure);
   result.failure = !solve.usable         ? "the solver failed"
                    : !impossible.empty() ? impossible
@@ -224,23 +225,6 @@ bool WindowTracker::StandsStill(const KeyframeInput& keyframe, const Eigen::Vect
     return false;
   gentle_start_.Begin(reading->accel);
   return true;
-}
-
-// From time to time, looks for a pose that explains the events better than the newest keyframe's; returned
-// once several searches have confirmed it.
-std::optional<SE3> WindowTracker::SearchRival(const KeyframeInput& keyframe, const Eigen::Vector3d& rate,
-                                              bool coasting) {
-  if (!rivals_.Due(keyframe.t, coasting)) return std::nullopt;
-  // With more points the pose of this keyframe would come too late, as the search comes before it.
-  constexpr int kEnough = 4000;
-  const int n = std::min(points_->affordable(), kEnough);
-  const AlignmentPoints points = points_->Select(state(), rate, n, keyframe.seq);
-  if (points.size() < kMinPoints) return std::nullopt;
-  const SurfaceField field(keyframe.surface, kRivalRange.levels);
-  const SE3& pose = state().T_map_body;
-  const StartRival rival = FindRival(alignment_, field, points, pose, kRivalRange, keyframe.seq);
-  return rivals_.Confirm(keyframe.t, pose, rival,
-                         AlignmentSignificance(alignment_, field, points, rival.T_map_body));
 }
 
 // Why coasting cannot continue; empty where it can.

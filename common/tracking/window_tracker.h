@@ -1,7 +1,6 @@
 #pragma once
 
 #include <deque>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,7 +70,6 @@ class WindowTracker {
                        double significance) const;
   Utime Interval() const;
   bool StandsStill(const KeyframeInput& keyframe, const Eigen::Vector3d& rate);
-  std::optional<SE3> SearchRival(const KeyframeInput& keyframe, const Eigen::Vector3d& rate, bool coasting);
   std::string WhyLost(const Result& result, const Matrix6d& covariance) const;
 
   Rig rig_;
