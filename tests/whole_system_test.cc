@@ -9,8 +9,11 @@
 #include <fstream>
 #include <regex>
 #include <thread>
+#include <vector>
 
+#include "common/bus/log_file.h"
 #include "common/evaluation/covariance_file.h"
+#include "common/evaluation/trajectory_error.h"
 #include "common/map/map_file.h"
 #include "tests/helpers/paths.h"
 
@@ -60,6 +63,36 @@ TEST_F(WholeSystemTest, TracksInRealTime) {
   const Result result = Shell(RunCommand("live", kRealTime));
   ASSERT_EQ(result.code, 0) << result.output;
   ExpectGood(Path("live/trajectory.tum"), 0.02, 0.8);
+}
+
+// A recording of a camera alone: EVIT refuses it, and says by which settings it can be tracked.
+TEST_F(WholeSystemTest, TracksByEventsAloneWhereThereIsNoImu) {
+  {
+    const LogReader log(kLogs + "sample.lcmlog");
+    LogWriter bare(Path("bare.lcmlog"));
+    std::vector<std::uint8_t> bytes;
+    for (const LogEntry& entry : log.entries()) {
+      if (log.channel(entry) == "IMU") continue;
+      log.Read(entry, &bytes);
+      bare.Write(entry.utime, log.channel(entry), bytes.data(), bytes.size());
+    }
+    bare.Close();
+  }
+  const std::string begin = kEvit + " run --log " + Path("bare.lcmlog") + " --map " + kLogs +
+                            "sample_map.pcd --rig " + kLogs + "rig.textproto --initial-from " + kLogs +
+                            "sample_truth.tum --seconds 0:1.6 --out ";
+  Result result = Shell(begin + Path("refused"));
+  EXPECT_NE(result.code, 0);
+  EXPECT_THAT(result.output, HasSubstr("config/evt.textproto"));
+  for (const char* out : {"a", "b"}) {
+    result = Shell(begin + Path(out) + " --config " + test::SourcePath("config/evt.textproto"));
+    ASSERT_EQ(result.code, 0) << result.output;
+  }
+  const TrajectoryError error =
+      AbsoluteError(ReadTum(kLogs + "sample_truth.tum"), ReadTum(Path("a/trajectory.tum")), Alignment::kNone);
+  EXPECT_GT(error.n_pairs, 30);
+  EXPECT_LT(error.position_max, 0.03);
+  EXPECT_EQ(ReadAll(Path("a/trajectory.tum")), ReadAll(Path("b/trajectory.tum")));
 }
 
 TEST_F(WholeSystemTest, InAMirroredMapItClaimsNoPose) {

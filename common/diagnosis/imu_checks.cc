@@ -157,6 +157,13 @@ Finding NoiseOf(const std::vector<ImuSample>& samples, const std::vector<double>
 }  // namespace
 
 Findings CheckImu(const std::vector<ImuSample>& samples, const Rig& rig) {
+  if (samples.empty()) {
+    return {
+        {"imu-rate", Severity::kWarning, "no samples",
+         "The recording holds no IMU. EVIT needs one; tracking by events alone does not.",
+         "record the IMU beside the events (`evit import --help` says how a file of its own is given), or "
+         "run with --config config/evt.textproto and a start pose"}};
+  }
   if (samples.size() < 20) {
     return {{"imu-rate", Severity::kError, FormatText("%zu samples", samples.size()),
              "The recording holds no IMU samples to speak of.",

@@ -14,8 +14,10 @@ constexpr std::size_t kMaxIntervalImu = 20'000;  // samples of one interval; a l
 KeyframeBuilder::KeyframeBuilder(const Rig& rig, const Options& options, bool lossless)
     : width_(rig.camera.width),
       height_(rig.camera.height),
+      without_imu_(options.without_imu),
       policy_(options.keyframes, options.surface, options.encoding == Keyframe::Encoding::kEventCount),
       merger_(width_, height_, lossless, rig.camera_time_offset, rig.imu_noise),
+      clock_(/*from_first_event=*/lossless),
       image_(MakeKeyframeImage(options.encoding, width_, height_, options.surface)),
       feedback_(lossless) {}
 
@@ -38,6 +40,7 @@ void KeyframeBuilder::Restart() {
   pending_.clear();
   image_->Clear();
   interval_.Clear();
+  clock_.Clear();
   awaited_ = -1;
 }
 
@@ -64,13 +67,40 @@ std::optional<Keyframe> KeyframeBuilder::Next() {
   return std::nullopt;
 }
 
+// The next IMU sample that all events up to it are known of; without an IMU a tick instead, as a sample that
+// says nothing but its time.
+std::optional<ImuSample> KeyframeBuilder::NextSample() {
+  if (without_imu_) {
+    const std::optional<EventClock::Tick> tick = clock_.Next(merger_);
+    if (clock_.running()) {
+      while (merger_.NextImu() != nullptr) merger_.PopImu();
+      if (!tick) return std::nullopt;
+      if (tick->begins) interval_.Clear();
+      ImuSample sample;
+      sample.t = tick->t;
+      return sample;
+    }
+  }
+  const ImuSample* next = merger_.NextImu();
+  if (next == nullptr) return std::nullopt;
+  return *next;
+}
+
+void KeyframeBuilder::PopSample() {
+  if (clock_.running()) {
+    clock_.Pop();
+  } else {
+    merger_.PopImu();
+  }
+}
+
 bool KeyframeBuilder::Decide() {
   awaited_ = -1;
-  while (const ImuSample* next = merger_.NextImu()) {
-    const ImuSample sample = *next;
+  while (const std::optional<ImuSample> next = NextSample()) {
+    const ImuSample& sample = *next;
     if (!interval_.begun()) {
       if (merger_.has_events() && sample.t >= merger_.first_event()) Begin(sample);
-      merger_.PopImu();
+      PopSample();
       continue;
     }
     const TrackerFeedback* const feedback = feedback_.For(next_seq_);
@@ -84,11 +114,11 @@ bool KeyframeBuilder::Decide() {
                      static_cast<int>(interval_.size())});
     if (due) {
       Push(*due, sample, *feedback);
-      if (*due == sample.t) merger_.PopImu();
+      if (*due == sample.t) PopSample();
       return true;
     }
     Take(sample);
-    merger_.PopImu();
+    PopSample();
   }
   return false;
 }
@@ -125,7 +155,7 @@ void KeyframeBuilder::Push(Utime stamp, const ImuSample& sample, const TrackerFe
   k.from_utime = span.from;
   k.lookahead = span.lookahead;
   ImuInterval::Closed interval = interval_.CloseAt(stamp, sample);
-  if (!first_) {
+  if (!first_ && !clock_.running()) {
     k.imu = std::move(interval.samples);
     k.imu_gap = interval.gap;
   }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "common/events/event_clock.h"
 #include "common/events/feedback_schedule.h"
 #include "common/events/imu_interval.h"
 #include "common/events/keyframe.h"
@@ -23,6 +24,8 @@ namespace evit {
 /// Lossless: keyframes depend on the data and on the feedback only, bit for bit, not on how the two streams
 /// are cut or interleaved: each waits for its feedback (FeedbackSchedule). Real time: the newest feedback
 /// counts, and an IMU 50 ms ahead of the events does not wait for them.
+///
+/// Without an IMU there are no keyframes, but for Options::without_imu.
 class KeyframeBuilder {
  public:
   struct Options {
@@ -30,6 +33,10 @@ class KeyframeBuilder {
     SurfaceOptions surface;
     /// kEventCount also makes keyframes adaptive whatever the tracker's mode.
     Keyframe::Encoding encoding = Keyframe::Encoding::kTimeSurface;
+    /// Where no IMU sample comes within EventClock::kPatience of events, keyframes come by the events' own
+    /// clock, without IMU samples; what an IMU says later does not count. Lossless they begin at the first
+    /// event. For trackers that need none.
+    bool without_imu = false;
   };
   KeyframeBuilder(const Rig& rig, const Options& options, bool lossless);
 
@@ -59,6 +66,8 @@ class KeyframeBuilder {
     Keyframe keyframe;
     std::int64_t position;  // of the first event after its stamp
   };
+  std::optional<ImuSample> NextSample();
+  void PopSample();
   bool Decide();
   void Begin(const ImuSample& sample);
   void Take(const ImuSample& sample);
@@ -68,8 +77,10 @@ class KeyframeBuilder {
   void Restart();
 
   int width_, height_;
+  bool without_imu_;
   KeyframePolicy policy_;
   StreamMerger merger_;
+  EventClock clock_;  // where there is no IMU
   std::unique_ptr<KeyframeImage> image_;
   FeedbackSchedule feedback_;
   ImuInterval interval_;  // since the last keyframe decided

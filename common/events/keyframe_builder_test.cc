@@ -33,8 +33,10 @@ TrackerFeedback Script(const Keyframe& k) {
 
 /// Feeds both streams cut and interleaved at random; feedback comes with a random delay.
 std::vector<Keyframe> BuildAll(const EventArray& events, const std::vector<ImuSample>& imu, unsigned seed,
-                               std::size_t max_packet) {
-  KeyframeBuilder builder(SmallRig(), SmallOptions(), true);
+                               std::size_t max_packet, bool without_imu = false) {
+  KeyframeBuilder::Options options = SmallOptions();
+  options.without_imu = without_imu;
+  KeyframeBuilder builder(SmallRig(), options, true);
   std::mt19937 random(seed);
   std::vector<Keyframe> out;
   std::size_t e = 0, m = 0, answered = 0;
@@ -83,6 +85,58 @@ TEST(KeyframeBuilder, KeyframesDoNotDependOnPacketsAndInterleaving) {
   ExpectSame(whole, BuildAll(events, imu, 2, 1));
   ExpectSame(whole, BuildAll(events, imu, 3, 50));
   ExpectSame(whole, BuildAll(events, imu, 4, 3'000));
+}
+
+TEST(KeyframeBuilder, WithoutAnImuKeyframesComeByTheEventsOwnClock) {
+  const EventArray events = RandomStream(1'000'000, 3'000'000, 30'000, 3);
+  EXPECT_TRUE(BuildAll(events, {}, 1, 1000).empty());
+  const std::vector<Keyframe> whole = BuildAll(events, {}, 1, events.size(), true);
+  ASSERT_GT(whole.size(), 30U);
+  EXPECT_EQ(whole[0].utime, events.t[0] + 7'300);  // from the first event on, though it waits for an IMU
+  EXPECT_EQ(whole[1].utime - whole[0].utime, 7'300);
+  EXPECT_GT(whole.back().utime, events.t.back() - 60'000);
+  EXPECT_LE(whole.back().utime, events.t.back());
+  for (const Keyframe& k : whole) EXPECT_TRUE(k.imu.empty());
+  for (const unsigned seed : {2, 3, 4}) ExpectSame(whole, BuildAll(events, {}, seed, 3000, true));
+}
+
+TEST(KeyframeBuilder, WithAnImuTheEventsOwnClockIsNotUsed) {
+  const EventArray events = RandomStream(1'000'000, 3'000'000, 30'000, 3);
+  const std::vector<ImuSample> imu = ImuStream(1'101'000, 2'995'000);
+  const std::vector<Keyframe> with = BuildAll(events, imu, 1, 300, false);
+  ASSERT_GT(with.size(), 30U);
+  ExpectSame(with, BuildAll(events, imu, 1, 300, true));
+}
+
+TEST(KeyframeBuilder, LiveTheEventsOwnClockMakesUpForNothing) {
+  KeyframeBuilder::Options options = SmallOptions();
+  options.without_imu = true;
+  KeyframeBuilder builder(SmallRig(), options, /*lossless=*/false);
+  const EventArray events = RandomStream(1'000'000, 3'000'000, 30'000, 3);
+  std::vector<Keyframe> keyframes;
+  for (std::size_t k = 0; k < events.size(); k += 100) {
+    builder.AddEvents(Slice(events, k, k + 100), events.t[k + 99]);
+    while (auto keyframe = builder.Next()) keyframes.push_back(std::move(*keyframe));
+  }
+  ASSERT_GT(keyframes.size(), 100U);
+  EXPECT_EQ(keyframes[0].utime, events.t[0] + EventClock::kPatience + 7'300);
+  EXPECT_GT(keyframes[0].n_events, 100);
+}
+
+TEST(KeyframeBuilder, TheEventsOwnClockRestsWhereThereAreNone) {
+  EventArray events = RandomStream(1'000'000, 2'000'000, 30'000, 3);
+  const EventArray later = RandomStream(7'000'000, 8'000'000, 30'000, 4);
+  for (std::size_t k = 0; k < later.size(); ++k)
+    events.push_back(later.t[k], later.x[k], later.y[k], later.p[k]);
+  const std::vector<Keyframe> whole = BuildAll(events, {}, 1, 5000, true);
+  int between = 0;
+  for (const Keyframe& k : whole) {
+    between += k.utime > 3'100'000 && k.utime < 7'000'000;
+    EXPECT_LT(k.utime - k.previous_utime, 200'000);
+  }
+  EXPECT_EQ(between, 0);
+  EXPECT_GT(whole.back().utime, 7'900'000);
+  for (const unsigned seed : {2, 3}) ExpectSame(whole, BuildAll(events, {}, seed, 700, true));
 }
 
 TEST(KeyframeBuilder, IntervalsJoinAndCarryTheirImuSamples) {

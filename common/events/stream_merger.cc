@@ -61,6 +61,7 @@ bool StreamMerger::AddEvents(const EventArray& events, Utime watermark) {
   }
   if (IsPlain(events)) {
     Append(events);
+    newest_event_ = events_.t.back();
     watermark_ = std::max(watermark_, events.t.back() + offset_);
   } else {
     Filter(events);
@@ -100,6 +101,7 @@ void StreamMerger::Filter(const EventArray& events) {
       continue;
     }
     events_.push_back(t, events.x[i], events.y[i], events.p[i]);
+    newest_event_ = t;
   }
 }
 

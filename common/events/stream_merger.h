@@ -53,6 +53,10 @@ class StreamMerger {
   const EventArray& events() const { return events_; }
   std::int64_t first() const { return dropped_ + static_cast<std::int64_t>(head_); }
   std::size_t IndexOf(std::int64_t position) const { return static_cast<std::size_t>(position - dropped_); }
+  /// Position after the newest event kept.
+  std::int64_t end() const { return dropped_ + static_cast<std::int64_t>(events_.size()); }
+  /// us: of the event at a position from first() on, before end().
+  Utime StampAt(std::int64_t position) const { return events_.t[IndexOf(position)]; }
   /// Position after the last event with a stamp <= t.
   std::int64_t PositionAfter(Utime t) const;
   /// Events before this position are not needed any more.
@@ -62,6 +66,9 @@ class StreamMerger {
   const Counters& counters() const { return counters_; }
   bool has_events() const { return has_events_; }
   Utime first_event() const { return first_event_; }
+  Utime newest_event() const { return newest_event_; }  // us; 0: none has come
+  bool has_imu() const { return has_imu_; }
+  bool ended() const { return watermark_ == kEnd; }
 
  private:
   bool IsPlain(const EventArray& events) const;
@@ -78,7 +85,7 @@ class StreamMerger {
   std::size_t head_ = 0;      // first event kept
   std::int64_t dropped_ = 0;  // position of events_[0]
   bool has_events_ = false, has_imu_ = false;
-  Utime first_event_ = 0, watermark_ = std::numeric_limits<Utime>::min(), last_imu_ = 0;
+  Utime first_event_ = 0, newest_event_ = 0, watermark_ = std::numeric_limits<Utime>::min(), last_imu_ = 0;
   std::deque<ImuSample> imu_;
   Counters counters_;
 };

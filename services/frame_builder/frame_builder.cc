@@ -23,7 +23,8 @@ FrameBuilder::FrameBuilder(Bus* bus, const Channels& channels, const Settings& s
       modes_(&status_, "TRACKER_MODE"),
       inbox_(&status_, settings.lossless),
       builder_(settings.rig, settings.keyframes, settings.lossless),
-      outbox_(bus, channels.keyframe, &status_, settings.lossless, settings.send_again) {
+      outbox_(bus, channels.keyframe, &status_, settings.lossless, settings.send_again),
+      check_(!settings.keyframes.without_imu) {
   const auto on = [&](const std::string& channel, auto method) {
     bus_->Subscribe(channel, [this, method](const std::string&, const std::uint8_t* data, std::size_t size) {
       (this->*method)(data, size);
@@ -34,7 +35,8 @@ FrameBuilder::FrameBuilder(Bus* bus, const Channels& channels, const Settings& s
   on(channels_.tracker_mode, &FrameBuilder::OnMode);
   on(channels_.stream_end, &FrameBuilder::OnEnd);
   if (settings_.lossless) credit_.emplace(bus_, channels_, "frame_builder", status_.epoch());
-  status_.SetState("waiting", "waiting for events and IMU samples");
+  status_.SetState("waiting", settings_.keyframes.without_imu ? "waiting for events"
+                                                              : "waiting for events and IMU samples");
 }
 
 void FrameBuilder::OnEvents(const std::uint8_t* data, std::size_t size) {

@@ -20,7 +20,8 @@ int Main(int argc, char** argv) {
   settings.keyframes = {pipeline.keyframes, pipeline.surface,
                         pipeline.method == evit::PipelineOptions::Method::kEvpt
                             ? evit::Keyframe::Encoding::kEventCount
-                            : evit::Keyframe::Encoding::kTimeSurface};
+                            : evit::Keyframe::Encoding::kTimeSurface,
+                        pipeline.method == evit::PipelineOptions::Method::kEvt};
   settings.lossless = options.lossless;
   const auto bus = evit::OpenServiceBus(options);
   evit::FrameBuilder service(bus.get(), evit::Channels(options.prefix), settings);

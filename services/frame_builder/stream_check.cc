@@ -13,7 +13,11 @@ constexpr Utime kOneClock = 5 * kMicrosPerSecond;  // more apart: no delay expla
 
 }  // namespace
 
+void StreamCheck::Clear() { *this = StreamCheck(needs_imu_); }
+
 void StreamCheck::AddImu(const ImuSample& sample) {
+  has_imu_ = true;
+  waits_in_vain_ = false;
   newest_imu_ = sample.t;
   imu_moved_ = true;
   if (looked_) return;
@@ -25,6 +29,10 @@ void StreamCheck::AddImu(const ImuSample& sample) {
 }
 
 void StreamCheck::AddEvents(Utime newest) {
+  if (needs_imu_ && !has_imu_) {
+    if (!waits_since_) waits_since_ = newest;
+    waits_in_vain_ = newest - *waits_since_ > kLook;
+  }
   if (!imu_moved_) return;
   imu_moved_ = false;
   event_ = newest;
@@ -39,6 +47,8 @@ std::string StreamCheck::Complaint() const {
         "host's",
         ToSeconds(event_), ToSeconds(imu_));
   }
+  if (waits_in_vain_)
+    return "EVENTS come, but no IMU: send IMU too, or track by events alone with config/evt.textproto";
   return units_;
 }
 

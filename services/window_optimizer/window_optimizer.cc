@@ -155,6 +155,7 @@ void WindowOptimizer::Report(const ProcessedKeyframe& processed) {
   const TrackerOutput& output = processed.output;
   publisher_.PublishWindow(processed);
   publisher_.PublishMode(processed, load_.keyframe_stride());
+  PublishKeyframePose(processed);
   if (restart_.enabled() && output.has_pose) {
     restart_.Store({keyframe.utime, keyframe.epoch, keyframe.seq, tracker.state(), output.information,
                     tracker.rate(), output.image_speed});
@@ -174,6 +175,17 @@ void WindowOptimizer::PublishPoses(const std::vector<ImuSample>& samples, const 
     state = PropagateImu(state, {samples[k - 1], samples[k]}, from.bias, settings_.rig.gravity);
     publisher_.PublishPose(samples[k].t, state);
   }
+}
+
+// Where there is no IMU to give poses at its rate.
+void WindowOptimizer::PublishKeyframePose(const ProcessedKeyframe& processed) {
+  const keyframe_t& keyframe = processed.keyframe.message;
+  const bool begins = keyframe.previous_utime == keyframe.utime;  // no samples either, with an IMU
+  if (keyframe.n_imu > 0 || begins || !processed.output.has_pose ||
+      processed.output.mode != TrackerMode::kTracking)
+    return;
+  const BodyState& state = worker_.idle_tracker()->state();
+  publisher_.PublishPose(keyframe.utime, {state.T_map_body, state.velocity});
 }
 
 void WindowOptimizer::AskForPoints() { map_.Ask(*worker_.idle_tracker(), Clock::now()); }

@@ -28,7 +28,8 @@
 namespace evit {
 
 /// KEYFRAME, IMU, MAP_POINTS and POSE_HINT in; WINDOW_STATE and TRACKER_MODE for each keyframe, BODY_POSE for
-/// each IMU sample and MAP_QUERY out. The tracker itself is common/tracking.
+/// each IMU sample (without an IMU for each keyframe) and MAP_QUERY out. The tracker itself is
+/// common/tracking.
 ///
 /// The points for the next keyframe are asked for before one is processed, so that map_server works
 /// meanwhile, and only where the view has moved so far that those at hand do not suffice. Lossless: a
@@ -71,6 +72,7 @@ class WindowOptimizer : public Service {
   KeyframeInput InputOf(const keyframe_t& keyframe);
   bool FinishWork(TrackerWorker::Wait wait);
   void Report(const ProcessedKeyframe& processed);
+  void PublishKeyframePose(const ProcessedKeyframe& processed);
   void PublishPoses(const std::vector<ImuSample>& samples, const BodyState& from);
 
   void AskForPoints();

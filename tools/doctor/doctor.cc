@@ -90,8 +90,10 @@ void CheckPlace(const Patient& patient, const Rig& rig, const Trajectory& truth,
   std::optional<SE3> start = patient.start;
   std::optional<SE3> known;  // in a recording whose clocks agree
   SE3 pose;
-  if (truth.size() > 1 && !imu.empty() && PoseAt(truth, std::max(truth.front().t, imu.front().t), &pose))
-    known = pose;
+  if (truth.size() > 1) {
+    const Utime begin = imu.empty() ? truth.front().t : std::max(truth.front().t, imu.front().t);
+    if (PoseAt(truth, begin, &pose)) known = pose;
+  }
   if (!start) start = known;
   Findings at_truth;
   if (!excerpts.instants().empty()) at_truth = diagnosis::CheckOverlap(map, rig, truth, excerpts);

@@ -33,7 +33,9 @@ void PrintStreams(const formats::ImportSummary& s) {
       std::printf(", %+.6f s added to its stamps", 1e-6 * static_cast<double>(s.imu_offset));
     std::printf("\n");
   } else {
-    std::printf("no IMU: evit run needs one; import again with --imu FILE where another file holds it\n");
+    std::printf(
+        "no IMU: import again with --imu FILE where another file holds it; without one evit run needs "
+        "--config config/evt.textproto and a start pose\n");
   }
 }
 

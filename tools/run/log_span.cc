@@ -97,24 +97,23 @@ LogSpan ReadLogSpan(const RunJob& job) {
     if (stream->first == nullptr) stream->first = &entry;
     stream->last = &entry;
   }
-  if (events.first == nullptr || imu.first == nullptr) {
-    throw std::runtime_error(job.log + ": holds no " +
-                             (imu.first == nullptr ? channels.imu : channels.events) +
-                             " messages; make it with `evit import`, or record both channels");
+  if (events.first == nullptr) {
+    throw std::runtime_error(job.log + ": holds no " + channels.events +
+                             " messages; make it with `evit import`, or record them too");
   }
   const Utime imu_begin = Stream::TimeOf<imu_batch_t>(log, imu.first, kNever);
   const Utime events_begin = Stream::TimeOf<event_packet_t>(log, events.first, kNever);
   span.begin = span.log_begin = std::min(imu_begin, events_begin);
-  span.end = Stream::TimeOf<imu_batch_t>(log, imu.last, -1);
-  RequireOneClock(job, events_begin, Stream::TimeOf<event_packet_t>(log, events.last, -1), imu_begin,
-                  span.end);
-  const Utime log_to_sensor = span.end - imu.last->utime;
+  const Utime events_end = Stream::TimeOf<event_packet_t>(log, events.last, -1);
+  span.end = imu.last != nullptr ? Stream::TimeOf<imu_batch_t>(log, imu.last, -1) : events_end;
+  RequireOneClock(job, events_begin, events_end, imu_begin, span.end);
+  const Utime log_to_sensor = span.end - (imu.last != nullptr ? imu.last : events.last)->utime;
   if (job.play.seconds) {
     const Utime begin = span.begin;
     span.begin = begin + static_cast<Utime>(1e6 * job.play.seconds->first);
     span.end = std::min(span.end, begin + static_cast<Utime>(1e6 * job.play.seconds->second));
   }
-  // The first keyframe needs both streams.
+  // The first keyframe needs both streams, where there are both.
   for (const Utime first : {imu_begin, events_begin}) {
     if (first != kNever) span.begin = std::max(span.begin, first);
   }

@@ -18,11 +18,11 @@ struct LogSpan {
   std::int64_t n_events = 0;
   std::string prefix;           // of the log's channels
   std::int64_t lost_bytes = 0;  // after the last whole message, where job.tolerate.truncated
-  std::vector<ImuSample> imu;   // the first ten seconds, in order of time
+  std::vector<ImuSample> imu;   // the first ten seconds, in order of time; empty: there is no IMU
   EventArray events;            // of packets spread over the part: some hundred thousand at most
 };
 
-/// Throws std::runtime_error naming the log and the remedy: no EVENTS or IMU, cut off (unless
+/// Throws std::runtime_error naming the log and the remedy: no EVENTS, cut off (unless
 /// job.tolerate.truncated), nothing in the part, two clocks.
 LogSpan ReadLogSpan(const RunJob& job);
 

@@ -12,6 +12,7 @@
 #include "common/config/settings_file.h"
 #include "common/config/settings_text.h"
 #include "common/evaluation/trajectory_pairs.h"
+#include "common/events/event_clock.h"
 #include "common/files/decimal_time.h"
 #include "common/imu/imu_plausibility.h"
 #include "common/localization/prior_text.h"
@@ -92,13 +93,20 @@ RunInputs PrepareRun(const RunJob& job) {
   if (!job.photometric_map.empty()) LoadPhotometricMap(job.photometric_map);
   const LogSpan span = ReadLogSpan(job);
   CheckSensor(job, span, camera);
+  if (span.imu.empty() && options.method != PipelineOptions::Method::kEvt) {
+    throw std::runtime_error(job.log + ": holds no IMU messages, which " + settings +
+                             " need: import it again with --imu FILE where another file holds them, or "
+                             "track by events alone with --config config/evt.textproto and a start pose");
+  }
   inputs.log_begin = span.log_begin;
   inputs.begin = span.begin;
   inputs.end = span.end;
   inputs.n_events = span.n_events;
   inputs.log_prefix = span.prefix;
   inputs.lost_bytes = span.lost_bytes;
-  inputs.start = StartPose(job, inputs.begin);
+  // Live the first keyframe comes once it is clear that there is no IMU.
+  const bool waits = span.imu.empty() && !job.play.lossless;
+  inputs.start = StartPose(job, inputs.begin + (waits ? EventClock::kPatience : 0));
   ParsePlacePrior(job.place.near, job.place.height, job.place.yaw);
   if (!inputs.start && options.method != PipelineOptions::Method::kEvit) {
     throw std::runtime_error(settings +
