@@ -250,7 +250,8 @@ TEST_F(WholeSystemTest, BadInputIsNamedAndLeavesNothingBehind) {
       {RunCommand("out", "--record " + folder_.string()), "--record"},
       {kEvit + " import vector " + kLogs + " --sequence nothing --out " + Path("x.lcmlog"),
        "sequences found there"},
-      {kEvit + " run --log x", "missing: --rig, --out"},
+      {kEvit + " run --log " + kLogs + "sample.lcmlog", "missing: --rig, --out"},
+      {kEvit + " run --log x", "--log x: there is no such file"},
   };
   for (const auto& c : cases) {
     const Result result = Shell(c.command);

@@ -1,9 +1,9 @@
 #include "common/calibration/rig_prior.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "common/geometry/degrees.h"
@@ -18,7 +18,8 @@ RigVector Sigma() {
 }
 
 // The update by measurements z = A x + noise of one, at a true x.
-RigUpdate Update(const Eigen::Matrix<double, Eigen::Dynamic, 7>& A, const RigVector& truth, double lag_sigma = 0) {
+RigUpdate Update(const Eigen::Matrix<double, Eigen::Dynamic, 7>& A, const RigVector& truth,
+                 double lag_sigma = 0) {
   RigVector sum_variance = Sigma().cwiseAbs2();
   sum_variance[6] += lag_sigma * lag_sigma;
   const RigMatrix prior = sum_variance.cwiseInverse().asDiagonal();

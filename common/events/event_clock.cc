@@ -1,5 +1,7 @@
 #include "common/events/event_clock.h"
 
+#include <algorithm>
+
 namespace evit {
 
 std::optional<EventClock::Tick> EventClock::Next(const StreamMerger& merger) {
@@ -16,13 +18,13 @@ std::optional<EventClock::Tick> EventClock::Next(const StreamMerger& merger) {
 }
 
 bool EventClock::Start(const StreamMerger& merger) {
-  if (merger.has_imu() || !merger.has_events() || !merger.Knows(merger.first_event() + kPatience) ||
-      merger.first() == merger.end())
+  if ((patience_ > 0 && merger.has_imu()) || !merger.has_events() ||
+      !merger.Knows(merger.first_event() + patience_) || merger.first() == merger.end())
     return false;
   running_ = true;
   position_ = merger.first();
   tick_ = newest_ = merger.StampAt(position_);
-  if (!from_first_event_ && !merger.ended()) tick_ = merger.first_event() + kPatience;
+  if (!from_first_event_ && !merger.ended()) tick_ = std::max(tick_, merger.first_event() + patience_);
   return true;
 }
 

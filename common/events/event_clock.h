@@ -7,18 +7,21 @@
 
 namespace evit {
 
-/// Ticks for recordings and cameras without an IMU: they take the place of its stamps. They begin once a
-/// second of events has come and no IMU sample, and depend on the events' stamps alone. Where there have been
-/// no events for a second they rest until the next one.
+/// Ticks for recordings and cameras without an IMU: they take the place of its stamps. Where it is not known
+/// beforehand that there is none they begin once a second of events has come and no IMU sample. When they
+/// come then depends on the events' stamps alone. Where there have been no events for a second they rest
+/// until the next one.
 class EventClock {
  public:
   static constexpr Utime kStep = 5'000;          // us between two ticks, as IMUs have it
-  static constexpr Utime kPatience = 1'000'000;  // us of events, in which an IMU sample may still come
+  static constexpr Utime kPatience = 1'000'000;  // us, where it is not known whether there is an IMU
   static constexpr Utime kRest = 1'000'000;      // us without events
 
+  /// `patience`: us of events, in which an IMU sample may still come; 0: it is known that none counts.
   /// `from_first_event`: the first tick is the first event's, so that nothing of a recording is left out;
-  /// else (live) a second later, so that nothing has to be made up for.
-  explicit EventClock(bool from_first_event) : from_first_event_(from_first_event) {}
+  /// else (live) the end of the patience, so that nothing has to be made up for.
+  EventClock(Utime patience, bool from_first_event)
+      : patience_(patience), from_first_event_(from_first_event) {}
 
   struct Tick {
     Utime t = 0;          // us
@@ -30,7 +33,7 @@ class EventClock {
   /// Goes on to the tick after that.
   void Pop();
   /// Forgets everything: a new stream begins.
-  void Clear() { *this = EventClock(from_first_event_); }
+  void Clear() { *this = EventClock(patience_, from_first_event_); }
 
   /// Whether it has begun, so that no IMU counts any more.
   bool running() const { return running_; }
@@ -39,6 +42,7 @@ class EventClock {
   bool Start(const StreamMerger& merger);
   void See(const StreamMerger& merger);
 
+  Utime patience_;
   bool from_first_event_;
   bool running_ = false, begins_ = true;
   Utime tick_ = 0;             // us: the next

@@ -17,7 +17,7 @@ KeyframeBuilder::KeyframeBuilder(const Rig& rig, const Options& options, bool lo
       without_imu_(options.without_imu),
       policy_(options.keyframes, options.surface, options.encoding == Keyframe::Encoding::kEventCount),
       merger_(width_, height_, lossless, rig.camera_time_offset, rig.imu_noise),
-      clock_(/*from_first_event=*/lossless),
+      clock_(options.imu_patience, /*from_first_event=*/lossless),
       image_(MakeKeyframeImage(options.encoding, width_, height_, options.surface)),
       feedback_(lossless) {}
 

@@ -22,10 +22,11 @@ namespace evit {
 ///   while (auto keyframe = builder.Next()) { ...; builder.SetFeedbackFor(keyframe->seq, feedback); }
 ///
 /// Lossless: keyframes depend on the data and on the feedback only, bit for bit, not on how the two streams
-/// are cut or interleaved: each waits for its feedback (FeedbackSchedule). Real time: the newest feedback
+/// are cut or interleaved (whether an IMU comes within the patience of Options::imu_patience is asked of the
+/// order of messages): each waits for its feedback (FeedbackSchedule). Real time: the newest feedback
 /// counts, and an IMU 50 ms ahead of the events does not wait for them.
 ///
-/// Without an IMU there are no keyframes, but for Options::without_imu.
+/// Without an IMU there are no keyframes, unless Options::without_imu is set.
 class KeyframeBuilder {
  public:
   struct Options {
@@ -33,10 +34,11 @@ class KeyframeBuilder {
     SurfaceOptions surface;
     /// kEventCount also makes keyframes adaptive whatever the tracker's mode.
     Keyframe::Encoding encoding = Keyframe::Encoding::kTimeSurface;
-    /// Where no IMU sample comes within EventClock::kPatience of events, keyframes come by the events' own
-    /// clock, without IMU samples; what an IMU says later does not count. Lossless they begin at the first
-    /// event. For trackers that need none.
+    /// Where no IMU sample comes within `imu_patience` (us of events; 0: none is waited for), keyframes come
+    /// by the events' own clock, without IMU samples; what an IMU says later does not count. Lossless they
+    /// begin at the first event. For trackers that need none.
     bool without_imu = false;
+    Utime imu_patience = EventClock::kPatience;
   };
   KeyframeBuilder(const Rig& rig, const Options& options, bool lossless);
 

@@ -108,6 +108,20 @@ TEST(KeyframeBuilder, WithAnImuTheEventsOwnClockIsNotUsed) {
   ExpectSame(with, BuildAll(events, imu, 1, 300, true));
 }
 
+TEST(KeyframeBuilder, WhereNoImuIsWaitedForTheEventsOwnClockBeginsAtOnce) {
+  KeyframeBuilder::Options options = SmallOptions();
+  options.without_imu = true;
+  options.imu_patience = 0;
+  KeyframeBuilder builder(SmallRig(), options, /*lossless=*/true);
+  for (const ImuSample& sample : ImuStream(900'000, 1'100'000)) builder.AddImu(sample);  // does not count
+  const EventArray events = RandomStream(1'000'000, 1'200'000, 30'000, 3);
+  builder.AddEvents(events, events.t.back());
+  const auto first = builder.Next();
+  ASSERT_TRUE(first);
+  EXPECT_LT(first->utime, events.t[0] + 100'000);
+  EXPECT_TRUE(first->imu.empty());
+}
+
 TEST(KeyframeBuilder, LiveTheEventsOwnClockMakesUpForNothing) {
   KeyframeBuilder::Options options = SmallOptions();
   options.without_imu = true;

@@ -14,7 +14,8 @@ constexpr char kExample[] = "Example: ";
 std::size_t Indent(const std::string& line) {
   const std::size_t begin = line.find_first_not_of(' ');
   if (begin != 2) return begin;  // all but a name with its description
-  const bool described = line.size() > kDescription && line[kDescription - 1] == ' ' && line[kDescription] != ' ';
+  const bool described =
+      line.size() > kDescription && line[kDescription - 1] == ' ' && line[kDescription] != ' ';
   return described ? kDescription : begin;
 }
 
@@ -25,8 +26,8 @@ bool IsCommand(const std::string& line, std::size_t* begin) {
          *begin == sizeof kExample - 1;
 }
 
-// Appends the line in pieces, each but the last with `mark` at its end and each but the first behind `indent` blanks.
-// `gap`: what to break before.
+// Appends the line in pieces, each but the last with `mark` at its end and each but the first behind `indent`
+// blanks. `gap`: what to break before.
 void Break(std::string line, const std::string& gap, std::size_t indent, const std::string& mark,
            std::string* out) {
   const std::string margin(indent, ' ');

@@ -49,7 +49,8 @@ TEST(HelpLayout, ACommandIsBrokenSoThatItCanBePasted) {
     std::string text = WrapHelp(before + command + "\n");
     EXPECT_LE(LongestLine(text), kHelpColumns);
     EXPECT_NE(text.find(" \\\n             --option"), std::string::npos) << text;
-    for (std::size_t at; (at = text.find(" \\\n             ")) != std::string::npos;) text.replace(at, 16, " ");
+    for (std::size_t at; (at = text.find(" \\\n             ")) != std::string::npos;)
+      text.replace(at, 16, " ");
     EXPECT_EQ(text, before + command + "\n");
   }
 }

@@ -54,6 +54,7 @@ void EventOnlyTracker::Start(Utime t, const BodyState& state, const Matrix15d&) 
   reason_ = "resumed from a checkpoint";
   probation_.Skip();
   rivals_.Start(t);
+  watched_at_ = t;
 }
 
 void EventOnlyTracker::StartAt(const SE3& T_map_body, TrackerMode mode, std::string reason) {
@@ -89,7 +90,8 @@ void EventOnlyTracker::AddVisible(const std::vector<std::int32_t>& ids,
 
 TrackerOutput EventOnlyTracker::Process(const KeyframeInput& keyframe) {
   TrackerOutput out;
-  if (KeepsVelocity() && aligned_at_ > 0 && !Starting()) StartAcrossHole(keyframe.t);
+  if (KeepsVelocity() && aligned_at_ > 0 && (!Starting() || keyframe.t < aligned_at_))
+    StartAcrossHole(keyframe.t);
   if (Starting() && !moving_) {
     Search(keyframe, &out);
   } else {

@@ -53,7 +53,9 @@ void StartChain::Add(Frame frame) {
     begin_.t = frame.frame.t;
     begin_.position = T_map_body.p - anchor.p;
     begin_.rotation = AngularDistance(anchor.q, T_map_body.q);
-    begin_.seconds = anchor_.velocity().isZero() ? ToSeconds(begin_.t - anchored_at_) : 0;
+    // With a gyro the anchor follows the body while frames do not fit; without one it stays where it is.
+    const bool moves = by_gyro_ && !anchor_.velocity().isZero();
+    begin_.seconds = moves ? 0 : ToSeconds(begin_.t - anchored_at_);
   }
   frames_.push_back(std::move(frame));
   if (frames_.size() > kMaxFrames) frames_.erase(frames_.begin());

@@ -21,7 +21,7 @@ log_file, map_file, trajectory_file, picture = sys.argv[1:5]
 log = evit_read.read_log(log_file)
 points = evit_read.read_map(map_file)
 track = evit_read.read_trajectory(trajectory_file)
-begin = min(log["events"]["t"][0], log["imu"]["t"][0])  # as in the pictures of `evit run`
+begin = min(log[stream]["t"][0] for stream in ("events", "imu") if len(log[stream]["t"]))  # as in the pictures of `evit run`
 
 
 def seconds(t):

@@ -16,14 +16,16 @@ std::string HelpOf(const std::string& program) {
   std::FILE* pipe = ::popen((test::ProgramPath(program) + " --help 2>&1").c_str(), "r");
   std::string text;
   std::array<char, 4096> buffer{};
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), n);
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    text.append(buffer.data(), n);
   EXPECT_EQ(::pclose(pipe), 0) << program;
   return text;
 }
 
 void ExpectNarrow(const std::string& program, const std::string& help) {
   std::istringstream lines(help);
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), kHelpColumns) << program << ": " << line;
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_LE(line.size(), kHelpColumns) << program << ": " << line;
 }
 
 // A command and all below it; how many these are.
@@ -36,7 +38,8 @@ int ExpectNarrowBelow(const std::string& command) {
   static const std::regex kName("  ([a-z]+) .*");
   for (std::string line; std::getline(lines, line) && !line.empty();) {
     std::smatch name;
-    if (std::regex_match(line, name, kName)) n += ExpectNarrowBelow(std::string(command).append(" ").append(name[1].str()));
+    if (std::regex_match(line, name, kName))
+      n += ExpectNarrowBelow(std::string(command).append(" ").append(name[1].str()));
   }
   return n;
 }

@@ -28,15 +28,15 @@ struct Magic {
   Contents contents;
 };
 constexpr Magic kMagics[] = {
-    {"\xed\xa1\xda\x01"sv, Contents::kLog},   {"# .PCD"sv, Contents::kCloud},
-    {"VERSION .7"sv, Contents::kCloud},       {"VERSION 0.7"sv, Contents::kCloud},
-    {"ply\n"sv, Contents::kCloud},            {"ply\r"sv, Contents::kCloud},
-    {"\x89PNG"sv, Contents::kForeign},        {"\xff\xd8\xff"sv, Contents::kForeign},
-    {"\x89HDF"sv, Contents::kForeign},        {"#ROSBAG"sv, Contents::kForeign},
-    {"PK\x03\x04"sv, Contents::kForeign},     {"\x1f\x8b"sv, Contents::kForeign},
-    {"SQLite format"sv, Contents::kForeign},  {"\x89MCAP"sv, Contents::kForeign},
-    {"#!AER-DAT"sv, Contents::kForeign},      {"% evt "sv, Contents::kForeign},
-    {"% Data file"sv, Contents::kForeign},    {"%PDF"sv, Contents::kForeign},
+    {"\xed\xa1\xda\x01"sv, Contents::kLog},  {"# .PCD"sv, Contents::kCloud},
+    {"VERSION .7"sv, Contents::kCloud},      {"VERSION 0.7"sv, Contents::kCloud},
+    {"ply\n"sv, Contents::kCloud},           {"ply\r"sv, Contents::kCloud},
+    {"\x89PNG"sv, Contents::kForeign},       {"\xff\xd8\xff"sv, Contents::kForeign},
+    {"\x89HDF"sv, Contents::kForeign},       {"#ROSBAG"sv, Contents::kForeign},
+    {"PK\x03\x04"sv, Contents::kForeign},    {"\x1f\x8b"sv, Contents::kForeign},
+    {"SQLite format"sv, Contents::kForeign}, {"\x89MCAP"sv, Contents::kForeign},
+    {"#!AER-DAT"sv, Contents::kForeign},     {"% evt "sv, Contents::kForeign},
+    {"% Data file"sv, Contents::kForeign},   {"%PDF"sv, Contents::kForeign},
 };
 
 // What an option takes; the words go after "expected".
@@ -71,8 +71,8 @@ constexpr Input kInputs[] = {
 };
 
 const Input* Find(const std::string& option) {
-  const auto* found =
-      std::find_if(std::begin(kInputs), std::end(kInputs), [&](const Input& i) { return option == i.option; });
+  const auto* found = std::find_if(std::begin(kInputs), std::end(kInputs),
+                                   [&](const Input& i) { return option == i.option; });
   return found == std::end(kInputs) ? nullptr : found;
 }
 
@@ -104,23 +104,26 @@ bool IsNumber(const std::string& word) {
   return !word.empty() && *end == '\0';
 }
 
-// Of text: rig and settings files are told by their blocks, tables by numbers.
+// Of text: rig and settings files are recognised by their blocks, tables by numbers.
 Contents ContentsOfText(const std::string& text) {
   std::istringstream lines(text);
+  int n_rows = 0, n_others = 0;
   for (std::string line; std::getline(lines, line);) {
-    std::replace_if(line.begin(), line.end(), [](char c) { return c == ',' || c == '{' || c == ';'; }, ' ');
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == ',' || c == '{' || c == ';'; }, ' ');
     std::istringstream in(line);
     const std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
     if (words.empty() || words[0][0] == '#') continue;
     if (words[0] == "camera" || words[0] == "cam0:") return Contents::kRig;
     if (words[0] == "evit" || words[0] == "evt" || words[0] == "evpt") return Contents::kSettings;
-    if (words.size() >= 3 && std::all_of(words.begin(), words.end(), IsNumber)) return Contents::kTable;
+    ++(words.size() >= 3 && std::all_of(words.begin(), words.end(), IsNumber) ? n_rows : n_others);
   }
-  return Contents::kOther;
+  // A table may have a header; a list of numbers in another file is none.
+  return n_rows > 0 && n_others <= 1 ? Contents::kTable : Contents::kOther;
 }
 
-// Text may be a map, and a table may be anything that is made of numbers. What is binary may be a damaged log or a
-// map with an odd head, of which their readers say more.
+// Text may be a map, and a table may be anything that is made of numbers. What is binary may be a damaged log
+// or a map with an odd head, of which their readers say more.
 bool Fits(Contents wanted, Contents found) {
   if (found == Contents::kBinary) return wanted == Contents::kLog || wanted == Contents::kCloud;
   return found == wanted || found == Contents::kOther ||
@@ -150,12 +153,14 @@ void RequireReadable(const std::string& what, const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (file) return;
   const int why = errno;
-  throw std::runtime_error(what + ": may not be read (" + std::strerror(why) + ")" +
-                           (why == EACCES ? "; give yourself the right: chmod u+r, or copy it" : ""));
+  throw std::runtime_error(what + ": cannot be read (" + std::strerror(why) + ")" +
+                           (why == EACCES ? "; change its permissions (chmod u+r), or copy it" : ""));
 }
 
 // Of numbers: CLI11 takes nothing for 0, and lets what is below zero wrap around.
-std::string NotANumber(const std::string& text) { return text.empty() ? "the value is empty; give a number" : ""; }
+std::string NotANumber(const std::string& text) {
+  return text.empty() ? "the value is empty; give a number" : "";
+}
 std::string Negative(const std::string& text) {
   return text.rfind('-', 0) == 0 ? "'" + text + "' is not a whole number from 0 on" : "";
 }
@@ -167,10 +172,17 @@ std::string NotFinite(const std::string& text) {
              : "";
 }
 
+// `evit import` and what is below it, not `evit map import`.
 bool IsImport(const CLI::App* command) {
-  for (; command != nullptr; command = command->get_parent())
-    if (command->get_name() == "import") return true;
+  for (; command->get_parent() != nullptr; command = command->get_parent())
+    if (command->get_name() == "import" && command->get_parent()->get_parent() == nullptr) return true;
   return false;
+}
+
+// CLI11 looks at the values of options before it gives the help that was asked for.
+bool AsksForHelp(const CLI::App* command) {
+  const CLI::Option* help = command->get_help_ptr();
+  return help != nullptr && help->count() > 0;
 }
 
 }  // namespace
@@ -195,10 +207,10 @@ void RequireInput(const std::string& option, const std::string& path) {
   std::error_code error;
   if (!fs::exists(path, error)) {
     const std::string why = error ? error.message() : "";
-    throw std::runtime_error(what + (why.empty() ? ": there is no such file" : ": cannot be read (" + why + ")") +
-                             (fs::path(path).is_relative() ? ", looked for in " + fs::current_path(error).string()
-                                                           : "") +
-                             expected);
+    throw std::runtime_error(
+        what + (why.empty() ? ": there is no such file" : ": cannot be read (" + why + ")") +
+        (fs::path(path).is_relative() ? ", looked for in " + fs::current_path(error).string() : "") +
+        expected);
   }
   if (fs::is_directory(path, error))
     throw std::runtime_error(what + ": is a folder; give the file in it" + Candidates(path, input->contents) +
@@ -223,7 +235,8 @@ void CheckInputs(CLI::App* app) {
     if (type == "UINT") option->check(Negative);
     if (!files || Find(name) == nullptr || (name == "--config" && !settings)) continue;
     const bool required = option->get_required();
-    option->check([name, required](const std::string& path) {
+    option->check([name, required, app](const std::string& path) {
+      if (AsksForHelp(app)) return std::string();
       if (path.empty() && required)
         throw std::runtime_error(std::string(name).append(": the name is empty; give a file"));
       RequireInput(name, path);

@@ -22,8 +22,9 @@ using ::testing::ThrowsMessage;
 class InputFiles : public ::testing::Test {
  protected:
   static void Refuses(const std::string& option, const std::string& path, const std::string& why) {
-    EXPECT_THAT([&] { RequireInput(option, path); },
-                ThrowsMessage<std::runtime_error>(AllOf(HasSubstr(option + " " + path + ": "), HasSubstr(why))));
+    EXPECT_THAT(
+        [&] { RequireInput(option, path); },
+        ThrowsMessage<std::runtime_error>(AllOf(HasSubstr(option + " " + path + ": "), HasSubstr(why))));
   }
   std::string Write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_.File(name), std::ios::binary) << text;
@@ -31,8 +32,10 @@ class InputFiles : public ::testing::Test {
   }
 
   const TemporaryFolder folder_{"input_files"};
-  const std::string log_ = test::SourcePath("logs/sample.lcmlog"), map_ = test::SourcePath("logs/sample_map.pcd"),
-                    rig_ = test::SourcePath("logs/rig.textproto"), truth_ = test::SourcePath("logs/sample_truth.tum"),
+  const std::string log_ = test::SourcePath("logs/sample.lcmlog"),
+                    map_ = test::SourcePath("logs/sample_map.pcd"),
+                    rig_ = test::SourcePath("logs/rig.textproto"),
+                    truth_ = test::SourcePath("logs/sample_truth.tum"),
                     settings_ = test::SourcePath("config/tracker.textproto");
 };
 
@@ -94,11 +97,15 @@ TEST_F(InputFiles, TheOptionsOfAllCommandsAreLookedAt) {
   app.add_subcommand("paper", "writes")->add_option("--config", config);
   CheckInputs(&app);
   app.parse("track --map " + map_);
-  app.parse("import " + log_);     // recognises files itself
+  app.parse("import " + log_);  // recognises files itself
   app.parse("paper --config " + rig_);
-  EXPECT_THAT([&] { app.parse("track --map " + rig_); }, ThrowsMessage<std::runtime_error>(HasSubstr("is a rig")));
-  EXPECT_THAT([&] { app.parse(std::vector<std::string>{"", "--map", "track"}); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("is empty")));
+  EXPECT_THAT([&] { app.parse("track --map " + rig_); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("is a rig")));
+  EXPECT_THAT(
+      [&] {
+        app.parse(std::vector<std::string>{"", "--map", "track"});
+      },
+      ThrowsMessage<std::runtime_error>(HasSubstr("is empty")));
   std::size_t seed = 1;
   CLI::Option* count = track->add_option("--seed", seed);
   CheckInputs(&app);

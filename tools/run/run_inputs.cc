@@ -12,7 +12,6 @@
 #include "common/config/settings_file.h"
 #include "common/config/settings_text.h"
 #include "common/evaluation/trajectory_pairs.h"
-#include "common/events/event_clock.h"
 #include "common/files/decimal_time.h"
 #include "common/imu/imu_plausibility.h"
 #include "common/localization/prior_text.h"
@@ -104,9 +103,8 @@ RunInputs PrepareRun(const RunJob& job) {
   inputs.n_events = span.n_events;
   inputs.log_prefix = span.prefix;
   inputs.lost_bytes = span.lost_bytes;
-  // Live the first keyframe comes once it is clear that there is no IMU.
-  const bool waits = span.imu.empty() && !job.play.lossless;
-  inputs.start = StartPose(job, inputs.begin + (waits ? EventClock::kPatience : 0));
+  inputs.has_imu = !span.imu.empty();
+  inputs.start = StartPose(job, inputs.begin);
   ParsePlacePrior(job.place.near, job.place.height, job.place.yaw);
   if (!inputs.start && options.method != PipelineOptions::Method::kEvit) {
     throw std::runtime_error(settings +

@@ -11,6 +11,7 @@ namespace evit::run {
 
 /// What a run starts from, found before anything is started.
 struct RunInputs {
+  bool has_imu = true;
   Utime log_begin = 0;          // sensor time at which the log begins: 0 of --seconds and of the pictures
   Utime begin = 0, end = 0;     // sensor time of the part that will be played
   std::int64_t n_events = 0;    // in that part

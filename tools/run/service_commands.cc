@@ -42,7 +42,7 @@ std::vector<procman::ProcmanCommand> ServiceCommands(const RunJob& job, const st
       {"--near", job.place.near}, {"--height", job.place.height}, {"--yaw", job.place.yaw}};
   for (const auto& [option, text] : known)
     if (!text.empty()) optimizer.insert(optimizer.end(), {option, text});
-  std::vector<std::string> builder{"frame_builder", "--rig", job.rig};
+  std::vector<std::string> builder{"frame_builder", "--rig", job.rig, "--imu", inputs.has_imu ? "yes" : "no"};
   if (!job.config.empty()) {
     for (auto* words : {&optimizer, &builder}) words->insert(words->end(), {"--config", job.config});
   }
