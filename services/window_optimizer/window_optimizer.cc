@@ -132,7 +132,7 @@ KeyframeInput WindowOptimizer::InputOf(const keyframe_t& keyframe) {
     // A keyframe between was lost, or frame_builder was restarted: the IMU samples since are our own.
     input.imu = imu_.history().Between(state_time, input.t);
     input.imu_gap = ImuHistory::LongestGap(input.imu);
-    ++status_.Counter("KEYFRAME.bridged");
+    if (!input.imu.empty()) ++status_.Counter("KEYFRAME.bridged");
   }
   return input;
 }

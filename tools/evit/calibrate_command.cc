@@ -90,7 +90,7 @@ void CalibrateWithTruth(const CalibrateOptions& o) {
 
 void RequireOutputs(const CalibrateOptions& o) {
   RequireOutput("--out", o.out);
-  RequireNotAnInput("--out", o.out, {o.job.log, o.job.map, o.poses, o.truth, o.from});
+  RequireNotAnInput("--out", o.out, {o.job.log, o.job.map, o.job.config, o.poses, o.truth, o.from});
   RequireOutputFolder("--work", o.job.out);
 }
 

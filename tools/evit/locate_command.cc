@@ -110,6 +110,7 @@ PlaceFinderOptions LeaveOut(const std::vector<std::string>& parts, int threads, 
 
 int Locate(const LocateOptions& o) {
   RequireOutput("--picture", o.picture);
+  RequireNotAnInput("--picture", o.picture, {o.log, o.map, o.rig, o.config});
   const Rig rig = LoadRig(o.rig);
   const PipelineOptions options = LoadOptionsFor(rig.camera, o.config);
   if (options.method != PipelineOptions::Method::kEvit)

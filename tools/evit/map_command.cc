@@ -94,6 +94,7 @@ void AddMapCommand(CLI::App* app) {
   convert->footer("Example: evit map import scan_mm.ply --scale 0.001 --voxel 0.01 --out map.pcd");
   convert->callback([o] {
     RequireOutput("--out", o->out);
+    RequireNotAnInput("--out", o->out, {o->in});
     const SE3 T = o->transform.empty() ? SE3() : ParseTransform("--transform", o->transform);
     LoadedMap loaded = LoadMap(o->in, {o->scale, T});
     if (o->voxel > 0) mapping::Thin(o->voxel, &loaded.map);

@@ -72,6 +72,7 @@ void AddMapEdits(CLI::App* map) {
   merge->footer("Example: evit map merge left.pcd right.pcd --out room.pcd");
   merge->callback([m] {
     RequireOutput("--out", m->out);
+    RequireNotAnInput("--out", m->out, m->in);
     std::vector<PointMap> maps;
     for (const std::string& path : m->in) maps.push_back(LoadMap(path).map);
     WriteEdited(*m, mapping::Merge(maps, m->voxel));
@@ -84,6 +85,7 @@ void AddMapEdits(CLI::App* map) {
   crop->footer("Example: evit map crop room.pcd --box :,:,0.1:2 --out without_floor.pcd");
   crop->callback([c] {
     RequireOutput("--out", c->out);
+    RequireNotAnInput("--out", c->out, c->in);
     PointMap cropped = LoadMap(c->in.front()).map;
     mapping::Crop(mapping::ParseBox("--box", c->box), c->outside, &cropped);
     WriteEdited(*c, cropped);
@@ -110,7 +112,9 @@ void AddMapEdits(CLI::App* map) {
       "turned.pcd");
   transform->callback([t] {
     RequireOutput("--out", t->out);
+    RequireNotAnInput("--out", t->out, t->in);
     RequireOutput("--truth-out", t->truth_out);
+    RequireNotAnInput("--truth-out", t->truth_out, {t->truth, t->out, t->in.front()});
     PointMap moved = LoadMap(t->in.front()).map;
     SE3 T = t->transform.empty() ? SE3() : ParseTransform("--transform", t->transform);
     if (!t->upright.empty()) T = TurnUpright(*t);

@@ -35,7 +35,7 @@ void RequireWritable(const std::string& what, const fs::path& folder) {
   const std::string why = WhyNotWritable(folder);
   if (!why.empty())
     throw std::runtime_error(what + ": nothing can be written to " + folder.string() + " (" + why +
-                             "); give another folder, or yourself the right to write there");
+                             "); give another folder, or change its permissions");
 }
 
 // Where a symbolic link leads, as the file written will be put there.
@@ -103,7 +103,10 @@ void RequireNotAnInput(const std::string& option, const std::string& path,
                        const std::vector<std::string>& inputs) {
   const auto same = [&](const std::string& input) {
     std::error_code error;
-    return !input.empty() && fs::equivalent(path, input, error) && !error;
+    if (input.empty() || path.empty()) return false;
+    if (fs::equivalent(path, input, error) && !error) return true;
+    // Of two outputs neither may be there yet.
+    return fs::weakly_canonical(path, error) == fs::weakly_canonical(input, error) && !error;
   };
   const auto input = std::find_if(inputs.begin(), inputs.end(), same);
   if (input == inputs.end()) return;

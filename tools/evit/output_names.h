@@ -11,13 +11,13 @@ namespace evit::commands {
 /// output.
 void RequireOutput(const std::string& option, const std::string& path);
 
-/// A folder that is there and can be written to, or can be made. Of an empty name nothing is asked.
-void RequireOutputFolder(const std::string& option, const std::string& path);
-
 /// The same of a log: what is there already is a log as well, so that a recording is not lost by a slip.
 void RequireLogOutput(const std::string& option, const std::string& path);
 
-/// `path` is none of the files that are read. Empty names are passed over.
+/// A folder that is there and can be written to, or can be made. Of an empty name nothing is asked.
+void RequireOutputFolder(const std::string& option, const std::string& path);
+
+/// `path` is none of these files, which are read or written too. Empty names are passed over.
 void RequireNotAnInput(const std::string& option, const std::string& path,
                        const std::vector<std::string>& inputs);
 

@@ -63,5 +63,14 @@ TEST_F(OutputNames, ALinkIsFollowed) {
   Refuses(folder_.File("link"), "nothing can be written to /proc");
 }
 
+TEST_F(OutputNames, NoOutputIsAFileThatIsReadOrWrittenToo) {
+  const std::string scan = folder_.File("scan.pcd"), other = folder_.File("other.pcd");
+  std::ofstream(scan) << "x";
+  EXPECT_THROW(RequireNotAnInput("--out", folder_.File("./scan.pcd"), {scan}), std::runtime_error);
+  EXPECT_THROW(RequireNotAnInput("--out", folder_.File("./other.pcd"), {scan, other}), std::runtime_error);
+  RequireNotAnInput("--out", other, {scan, ""});
+  RequireNotAnInput("--out", "", {""});
+}
+
 }  // namespace
 }  // namespace evit::commands
