@@ -1,6 +1,8 @@
 // The help of each program and command, as it is called.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdio>
 #include <regex>
 #include <sstream>
 #include <string>
