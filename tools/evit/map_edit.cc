@@ -46,7 +46,7 @@ std::shared_ptr<MapEdit> AddFiles(CLI::App* command, bool several) {
 // Says how, so that other poses can follow.
 SE3 TurnUpright(const MapEdit& edit) {
   Trajectory truth = ReadTum(edit.truth);
-  const SE3 T = mapping::UprightRotation(edit.upright, truth, edit.truth);
+  SE3 T = mapping::UprightRotation(edit.upright, truth, edit.truth);
   std::printf("turned by %.2f deg; for other poses: --T-map-world \"",
               AngularDistance(T.q, {1, 0, 0, 0}) * kDegreesPerRadian);
   for (int row = 0; row < 3; ++row)
